@@ -24,7 +24,7 @@ double growth_check_seconds(const Surface_mesh& mesh, std::size_t particles) {
       mesh, mesh.points(), std::make_shared<const Lbg>()));
   object.find_edges();
   const Positions positions = object.read_positions();
-  object.settle(object.divide(positions, particles, {}), positions);
+  object.take_division(object.divide(positions, particles, {}), positions);
   constexpr int checks = 1000;
   return median_seconds([&] {
            for (int check = 0; check < checks; ++check) object.has_outgrown(2);

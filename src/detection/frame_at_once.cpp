@@ -22,7 +22,7 @@ Triangle triangle_in(const Faces_in_box& faces, std::uint32_t face) {
 }
 
 void count_tests(const Contact_summary& contacts, Pair_result& result, Frame_statistics& statistics) {
-  result.candidates = statistics.candidates = contacts.leaf_tests;
+  result.leaf_tests = statistics.leaf_tests = contacts.leaf_tests;
   statistics.exact_tests = contacts.exact_tests;
 }
 

@@ -65,7 +65,7 @@ void Meeting_search::report(Met_pair& pair, std::vector<Face_pair>& found) {
   if (pair.seeds().empty()) return;
   if (wants_all()) {
     if (pair.followed_in == nullptr) searches_.front().follow_curves_alone(pair, workers_);
-    found.insert(found.end(), pair.contacts().begin(), pair.contacts().end());
+    found.insert(found.end(), pair.contacts_of_curves().begin(), pair.contacts_of_curves().end());
     remember_some(pair);
     if (pair.limited) remember_curves(pair);
   } else {
@@ -76,7 +76,7 @@ void Meeting_search::report(Met_pair& pair, std::vector<Face_pair>& found) {
 
 /// Remembers contacts at equal steps in the list of all.
 void Meeting_search::remember_some(const Met_pair& pair) {
-  const auto contacts = pair.contacts();
+  const auto contacts = pair.contacts_of_curves();
   const std::size_t step = contacts.size() / options_.meetings + (contacts.size() % options_.meetings > 0 ? 1 : 0);
   for (std::size_t i = 0; i < contacts.size(); i += step) memory_.keep(pair.ids, met_at(pair, contacts[i]));
 }
@@ -85,7 +85,7 @@ void Meeting_search::remember_some(const Met_pair& pair) {
 void Meeting_search::remember_curves(const Met_pair& pair) {
   const Leaf_neighbours &a = pair.a->leaf_neighbours(), &b = pair.b->leaf_neighbours();
   std::optional<Leaf_pair> last;
-  for (const Face_pair contact : pair.contacts())
+  for (const Face_pair contact : pair.contacts_of_curves())
     if (const Leaf_pair leaves{a.leaf_of(contact.a), b.leaf_of(contact.b)}; leaves != last) {
       curves_.keep(pair.ids, contact);
       last = leaves;
@@ -107,7 +107,7 @@ Meeting_counts Meeting_search::counts() const {
   for (const Pair_search& search : searches_) {
     const Meeting_counts counts = search.counts();
     sum.meetings += counts.meetings;
-    sum.openings += counts.openings;
+    sum.leaf_tests += counts.leaf_tests;
     sum.exact_tests += counts.exact_tests;
     sum.vertices_read += counts.vertices_read;
   }

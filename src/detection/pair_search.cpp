@@ -81,18 +81,19 @@ void Pair_search::list_regions(Met_pair& pair) {
 }
 
 void Pair_search::open(Met_pair& pair, Workers& workers) {
-  auto& opened = lists_.opened;
+  auto& contacts = lists_.of_look;
   begin_openings(pair, false);
-  pair.opened_entries.first = opened.size();
+  pair.look_entries.first = contacts.size();
   if (wants_all() && openings_.is_limited()) follow_known_curves(pair, workers);
-  pair.followed_count = opened.size() - pair.opened_entries.first;
-  openings_.open(opened, workers);
-  pair.opened_entries.count = opened.size() - pair.opened_entries.first;
+  pair.followed_count = contacts.size() - pair.look_entries.first;
+  openings_.open(contacts, workers);
+  pair.look_entries.count = contacts.size() - pair.look_entries.first;
   pair.out_of_budget = openings_.out_of_budget();
-  count_openings();
+  count_openings(pair);
   pair.compared_entries = {.first = lists_.compared.size(), .count = openings_.compared().size()};
   lists_.compared.insert(lists_.compared.end(), openings_.compared().begin(), openings_.compared().end());
-  if (pair.seed_entries.count == 0 && !pair.opened().empty()) add_seed(pair, met_at(pair, pair.opened().front()));
+  if (pair.seed_entries.count == 0 && !pair.contacts_of_look().empty())
+    add_seed(pair, met_at(pair, pair.contacts_of_look().front()));
 }
 
 /// How many vertices are read as a whole. In order that takes a small fraction of the time per vertex that openings
@@ -123,12 +124,13 @@ void Pair_search::follow_known_curves(const Met_pair& pair, Workers& workers) {
   const auto known = curves_.recall(pair.ids);
   contacts_.insert(contacts_.end(), known.begin(), known.end());
   if (contacts_.empty()) return;
-  openings_.follow(pair.a->leaf_neighbours(), pair.b->leaf_neighbours(), {.contacts = contacts_}, lists_.opened,
+  openings_.follow(pair.a->leaf_neighbours(), pair.b->leaf_neighbours(), {.contacts = contacts_}, lists_.of_look,
                    workers);
 }
 
-void Pair_search::count_openings() {
-  counts_.openings += openings_.leaf_tests();
+void Pair_search::count_openings(Met_pair& pair) {
+  pair.leaf_tests += openings_.leaf_tests();
+  counts_.leaf_tests += openings_.leaf_tests();
   counts_.exact_tests += openings_.exact_tests();
 }
 
@@ -160,17 +162,17 @@ void Pair_search::add_seed(Met_pair& pair, const Remembered_meeting& seed) {
 
 void Pair_search::follow_curves(Met_pair& pair, Workers& workers) {
   if (pair.seed_entries.count == 0) return;
-  contacts_.assign(pair.opened().begin(), pair.opened().end());
+  contacts_.assign(pair.contacts_of_look().begin(), pair.contacts_of_look().end());
   for (const auto& seed : pair.seeds()) contacts_.push_back(seed.contact);
   begin_openings(pair, true);
   pair.limited = openings_.is_limited();
   pair.followed_in = &lists_;
-  pair.contact_entries.first = lists_.contacts.size();
+  pair.curve_entries.first = lists_.of_curves.size();
   openings_.follow(pair.a->leaf_neighbours(), pair.b->leaf_neighbours(),
                    {.contacts = contacts_, .compared = pair.compared(), .followed = pair.followed_count},
-                   lists_.contacts, workers);
-  pair.contact_entries.count = lists_.contacts.size() - pair.contact_entries.first;
-  count_openings();
+                   lists_.of_curves, workers);
+  pair.curve_entries.count = lists_.of_curves.size() - pair.curve_entries.first;
+  count_openings(pair);
 }
 
 Meeting_counts Pair_search::counts() const {

@@ -43,7 +43,7 @@ void Particle_detection::add_counts() {
   auto& statistics = frame_.statistics();
   statistics.exact_tests = counts.exact_tests;
   statistics.meetings = counts.meetings;
-  statistics.openings = counts.openings;
+  statistics.leaf_tests = counts.leaf_tests;
   statistics.vertices_read += counts.vertices_read;
   for (auto& object : objects_)
     if (object) statistics.vertices_read += object->particle_object.tree().vertices_read();
@@ -143,6 +143,7 @@ void Particle_detection::report(Met_pair& pair) {
   result.candidates = near > 0 ? near : std::min<std::size_t>(pair.seeds().size(), 1);
   frame_.statistics().candidates += result.candidates;
   meeting_search_.report(pair, frame_.face_pairs());
+  result.leaf_tests = pair.leaf_tests;
   if (options_.list_candidates) list_near_regions(pair);
   end_pair(result);
 }

@@ -62,7 +62,7 @@ Numbered_partition Particle_object::divide(const Positions& positions, std::size
   return result;
 }
 
-void Particle_object::settle(Numbered_partition division, const Positions& positions, Workers& workers) {
+void Particle_object::take_division(Numbered_partition division, const Positions& positions, Workers& workers) {
   labels_ = std::move(division.labels);
   steps_ = Region_steps(edges_.graph, labels_);
   patches_.clear();

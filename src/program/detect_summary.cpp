@@ -15,7 +15,6 @@
 #include "lodestone/io/results/text_table.h"
 #include "lodestone/version.h"
 #include "program/missed_frames.h"
-#include "program/source_revision.h"
 #include "program/standard_input.h"
 
 namespace lodestone {
@@ -225,13 +224,13 @@ std::string work_of(const Detector_options& options, const Measurement& measurem
   if (options.mode == Mode::certified)
     return fmt::format("{:.0f} vertices read, {:.1f} nodes bounded, {:.1f} pairs of leaves",
                        mean(&Frame_statistics::vertices_read), mean(&Frame_statistics::nodes_bounded),
-                       mean(&Frame_statistics::candidates));
-  if (finds_all(options.mode)) return fmt::format("{:.1f} pairs of leaves", mean(&Frame_statistics::candidates));
+                       mean(&Frame_statistics::leaf_tests));
+  if (finds_all(options.mode)) return fmt::format("{:.1f} pairs of leaves", mean(&Frame_statistics::leaf_tests));
   if (options.mode == Mode::senin || options.meetings == 0)
     return fmt::format("{:.1f} iterations", mean(&Frame_statistics::iterations));
   return fmt::format("{:.0f} vertices read, {:.1f} meetings, {:.1f} pairs of leaves",
                      mean(&Frame_statistics::vertices_read), mean(&Frame_statistics::meetings),
-                     mean(&Frame_statistics::openings));
+                     mean(&Frame_statistics::leaf_tests));
 }
 
 void print_times(const Run_subject& subject, const Run_summary& summary) {
@@ -302,7 +301,7 @@ Json summary_json(const Run_subject& subject, const Run_summary& summary) {
   const Mode mode = subject.command.options.mode;
   const bool divides = makes_regions(subject.command.options, subject.scene);
   Json json{{"version", version()},
-            {"revision", source_revision()},
+            {"revision", subject.revision},
             {"command", subject.command.words},
             {"scene", subject.scene.name},
             {"frames", subject.scene.frames},
@@ -313,8 +312,8 @@ Json summary_json(const Run_subject& subject, const Run_summary& summary) {
             {"pairs", Json::array()}};
   for (const auto& [pair, results] : summary.pairs) json["pairs"].push_back(pair_summary_json(subject, pair, results));
   const Json measured = to_json(summary.measurement);
-  for (const char* key : {"mean_iterations", "mean_moves", "mean_candidates", "mean_exact_tests", "mean_repartitions",
-                          "median_microseconds"})
+  for (const char* key : {"mean_iterations", "mean_moves", "mean_candidates", "mean_leaf_tests", "mean_exact_tests",
+                          "mean_repartitions", "median_microseconds"})
     json[key] = measured[key];
   if (mode == Mode::certified)
     for (const char* key : {"mean_vertices_read", "mean_nodes_bounded", "mean_leaves_posed", "mean_violations"})

@@ -20,7 +20,7 @@ constexpr std::array stages{&Stage_times::build,       &Stage_times::repartition
 constexpr std::array counts{
     &Frame_statistics::iterations,    &Frame_statistics::moves,         &Frame_statistics::meetings,
     &Frame_statistics::vertices_read, &Frame_statistics::nodes_bounded, &Frame_statistics::leaves_posed,
-    &Frame_statistics::violations,    &Frame_statistics::candidates,    &Frame_statistics::openings,
+    &Frame_statistics::violations,    &Frame_statistics::candidates,    &Frame_statistics::leaf_tests,
     &Frame_statistics::exact_tests,   &Frame_statistics::builds,        &Frame_statistics::repartitions};
 
 /// Numbers of another kind are not converted: a large one would be undefined behaviour.

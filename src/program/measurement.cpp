@@ -62,6 +62,7 @@ nlohmann::ordered_json to_json(const Measurement& m) {
       {"mean_iterations", mean_count(m, &Frame_statistics::iterations)},
       {"mean_moves", mean_count(m, &Frame_statistics::moves)},
       {"mean_candidates", mean_count(m, &Frame_statistics::candidates)},
+      {"mean_leaf_tests", mean_count(m, &Frame_statistics::leaf_tests)},
       {"mean_meetings", mean_count(m, &Frame_statistics::meetings)},
       {"mean_vertices_read", mean_count(m, &Frame_statistics::vertices_read)},
       {"mean_nodes_bounded", mean_count(m, &Frame_statistics::nodes_bounded)},

@@ -19,14 +19,16 @@ std::size_t expect_true(const Frame& frame, const Owned_meshes& scene) {
 }
 
 void expect_sums_of_pairs(const Frame& frame) {
-  std::size_t candidates = 0, next = 0;
+  std::size_t candidates = 0, leaf_tests = 0, next = 0;
   for (const auto& pair : frame.pairs) {
     candidates += pair.candidates;
+    leaf_tests += pair.leaf_tests;
     EXPECT_EQ(pair.first_contact, next);
     next += pair.contacts;
   }
   EXPECT_EQ(next, frame.face_pairs.size());
   EXPECT_EQ(frame.statistics.candidates, candidates);
+  EXPECT_EQ(frame.statistics.leaf_tests, leaf_tests);
   EXPECT_EQ(frame.statistics.object_candidates, frame.pairs.size());
   EXPECT_EQ(frame.statistics.contacts, frame.face_pairs.size());
   EXPECT_GE(frame.statistics.exact_tests, frame.statistics.contacts);

@@ -71,7 +71,7 @@ TEST(Fine_parts, of_two_surfaces_give_the_same_contacts_at_any_size_for_about_th
       for_instruction_sets([&] {
         const Collisions found = find_collisions(fine_a, fine_b);
         EXPECT_EQ(found.faces, truth.faces);
-        EXPECT_LE(found.statistics.candidates, 4 * truth.statistics.candidates);
+        EXPECT_LE(found.statistics.leaf_tests, 4 * truth.statistics.leaf_tests);
         if (hall != Hall::row_of_faces)  // its leaves have faces of any size
           EXPECT_LE(found.statistics.exact_tests, 2 * truth.statistics.exact_tests);
         EXPECT_TRUE(find_collisions(fine_a, fine_b, {.contacts = Contact_query::yes_no}).collide);
@@ -94,7 +94,7 @@ TEST(Fine_parts, at_two_places_are_found_for_about_twice_the_effort) {
   };
   const Collisions twice = find_collisions(at_two_places(ball(0), -1), at_two_places(ball(1.7), 1));
   EXPECT_GT(twice.faces.size(), once.faces.size());
-  EXPECT_LE(twice.statistics.candidates, 8 * once.statistics.candidates);
+  EXPECT_LE(twice.statistics.leaf_tests, 8 * once.statistics.leaf_tests);
 }
 
 TEST(Fine_parts, of_two_surfaces_are_near_within_the_same_share_of_their_size) {

@@ -126,11 +126,11 @@ TEST(Meetings, where_the_particles_still_meet_nothing_else_is_looked_at) {
     Detector<> detector(by_meetings(query));
     add_all(detector, scene);
     const auto first = detector.detect().statistics;
-    EXPECT_GT(first.openings, 0U);
+    EXPECT_GT(first.leaf_tests, 0U);
     EXPECT_GT(first.exact_tests, 0U);
     for (int frame = 0; frame < 3; ++frame) {
       const auto& next = detector.detect().statistics;
-      EXPECT_EQ(next.openings + next.meetings + next.moves, 0U);
+      EXPECT_EQ(next.leaf_tests + next.meetings + next.moves, 0U);
       EXPECT_EQ(next.exact_tests, 1U);
       EXPECT_EQ(next.candidates, 1U);
       EXPECT_LT(next.vertices_read, 100U);
@@ -167,7 +167,7 @@ TEST(Meetings, happen_only_where_the_budget_has_ended_the_openings) {
     expect_sums_of_pairs(frame);
     EXPECT_EQ(frame.statistics.meetings > 0, tiny);
     EXPECT_EQ(frame.statistics.iterations > 0, tiny);
-    EXPECT_EQ(frame.statistics.openings > 0, !tiny);
+    EXPECT_EQ(frame.statistics.leaf_tests > 0, !tiny);
     EXPECT_LE(frame.statistics.meetings, options.meetings);
   }
 }
@@ -313,7 +313,7 @@ TEST(Meetings, without_them_the_openings_have_no_effect_and_whole_regions_are_ch
   for (int number = 0; number < 12; ++number) {
     const Frame& frame = first.detect();
     expect_same_frame(frame, second.detect());
-    EXPECT_EQ(frame.statistics.meetings + frame.statistics.openings, 0U);
+    EXPECT_EQ(frame.statistics.meetings + frame.statistics.leaf_tests, 0U);
     // What is reported are the contacts of the candidate regions, no more and no less.
     const auto touches = [&](Object_id object, Region_index region, std::uint32_t face) {
       const auto& surface = first.object(object);

@@ -32,7 +32,7 @@ struct Counted_object {
   void partition(std::size_t regions, const Partition_options& options = {}) {
     const Positions positions = object.read_positions();
     object.measure_distance(positions, Distance_measure::adjacent_vertices);
-    object.settle(object.divide(positions, regions, options), positions);
+    object.take_division(object.divide(positions, regions, options), positions);
     object.prepare_patches();
   }
   void scatter(std::size_t particles, const Senin_options& options = {}) {
@@ -115,7 +115,7 @@ TEST(Particle_object, a_partition_reads_nothing_but_the_positions_that_it_is_giv
   EXPECT_EQ(counted.reads, positions.rows());
   counted.reads = 0;
   counted.object.measure_distance(positions, Distance_measure::adjacent_vertices);
-  counted.object.settle(counted.object.divide(positions, 12, {}), positions);
+  counted.object.take_division(counted.object.divide(positions, 12, {}), positions);
   counted.object.prepare_meetings(positions, {});
   EXPECT_EQ(counted.reads, 0U);
 }

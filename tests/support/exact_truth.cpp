@@ -133,7 +133,7 @@ void expect_same_frame(const Frame& a, const Frame& b) {
   }
   const auto counts = [](const Frame_statistics& s) {
     return std::make_tuple(s.object_candidates, s.iterations, s.moves, s.relaxed, s.candidates, s.exact_tests,
-                           s.contacts, s.meetings, s.openings, s.repartitions);
+                           s.contacts, s.meetings, s.leaf_tests, s.repartitions);
   };
   EXPECT_EQ(counts(a.statistics), counts(b.statistics));
 }

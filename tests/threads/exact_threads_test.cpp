@@ -89,7 +89,7 @@ TEST(Exact_threads, a_first_contact_that_is_met_late_does_not_depend_on_their_nu
         EXPECT_TRUE(found.back().collides());
         expect_same_frame(found.back(), found.front());
       }
-      most_looked_at = std::max(most_looked_at, found.front().statistics.candidates);
+      most_looked_at = std::max(most_looked_at, found.front().statistics.leaf_tests);
     }
   EXPECT_GT(most_looked_at, 1000U);  // far more than one thread looks at before it wakes others
 }

@@ -37,7 +37,7 @@ std::vector<Frame> frames(std::deque<Surface_mesh> owned, Detector_options optio
 void expect_the_same(const std::deque<Surface_mesh>& owned, const Detector_options& options) {
   const auto expected = frames(owned, options, 1);
   EXPECT_TRUE(expected.front().collides());
-  EXPECT_GT(expected.front().statistics.candidates, 300U);  // far more than one thread looks at before it wakes others
+  EXPECT_GT(expected.front().statistics.leaf_tests, 300U);  // far more than one thread looks at before it wakes others
   for (const std::size_t threads : {2, 5}) {
     const auto found = frames(owned, options, threads);
     for (std::size_t i = 0; i < expected.size(); ++i) expect_same_frame(found[i], expected[i]);

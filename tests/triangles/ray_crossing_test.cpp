@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
 
 #include "lodestone/io/shapes/shapes.h"
 #include "lodestone/mesh/is_closed.h"
@@ -31,8 +32,15 @@ Point placed_point(const Point& p, double scale, double offset) {
 const std::vector<std::pair<double, double>> places{{1, 0},        {0x1p-300, 0}, {0x1p300, 0}, {0x1p-1060, 0},
                                                     {0x1p1010, 0}, {1, 0x1p20},   {1, -0x1p20}};
 
+/// Whether a point is inside a closed mesh, by the parity of all faces. On the surface either answer is right.
 bool inside(const Face_soup& soup, const Point& p, double scale = 1, double offset = 0) {
-  return point_inside(placed_point(p, scale, offset), soup.faces, placed(soup, scale, offset).coordinates);
+  const Face_soup there = placed(soup, scale, offset);
+  const std::span<const double> coordinates(there.coordinates);
+  const auto position = [&](std::uint32_t vertex) { return coordinates.subspan(3 * std::size_t{vertex}, 3); };
+  bool inside = false;
+  for (const auto& face : there.faces)
+    inside ^= crosses_upward_ray(face_triangle(face, position), placed_point(p, scale, offset));
+  return inside;
 }
 
 /// Points that share coordinates with vertices, lie above them, above edges and anywhere.

@@ -10,8 +10,9 @@
 
 namespace lodestone {
 
-/// The broad phase: object pairs whose particles may feel each other or come near each other; in mode `exact` those
-/// whose surfaces may be nearer than the tolerance.
+/// The broad phase: object pairs whose surfaces may be nearer than the tolerance. In mode `particles` those whose
+/// regions may touch; without meetings, and in mode `senin`, those whose particles may feel each other or come near
+/// each other.
 class Broad_phase {
  public:
   /// Makes room for so many objects.
@@ -23,8 +24,8 @@ class Broad_phase {
   /// The result is valid until the next call.
   ///
   /// @param ids    n objects that have not been removed, ascending
-  /// @param boxes  by id: around the particles of the object, or around all of it
-  /// @param reach  by id: how far its particles are felt, or taken as near; or the tolerance
+  /// @param boxes  by id: around all of the object, or its regions, or its particles
+  /// @param reach  by id: the tolerance; 0 for regions, which have grown already; how far particles are felt, or near
   std::span<const Object_pair> find(std::span<const std::uint32_t> ids, std::span<const Box> boxes,
                                     std::span<const double> reach);
 

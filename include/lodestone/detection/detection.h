@@ -18,7 +18,8 @@ namespace lodestone {
 /// What a Detector asks of a mode. The models own the objects. The caller checks ids: none is that of a removed object.
 ///
 /// What only one model can answer is no part of this interface: the Detector asks that model itself. A new mode is one
-/// more model, and one more line in `make_detection`.
+/// more model, which `make_detection` makes. `detector_options.h` and its source name the mode and check its options.
+/// The program and the Python package have what `grep Mode::` finds there.
 class Detection {
  public:
   virtual ~Detection() = default;

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
-#include <concepts>
 #include <functional>
 #include <map>
 #include <optional>
@@ -143,7 +141,7 @@ void Exact_pairs<Volume>::check_candidates() {
   constexpr std::size_t tests_alone = 64;  // pairs of objects or of leaves; some 50 microseconds
   small_pairs_.clear();
   std::size_t candidate = 0;
-  for (; candidate < candidates_.size() && candidate + frame_.statistics().candidates < tests_alone; ++candidate)
+  for (; candidate < candidates_.size() && candidate + frame_.statistics().leaf_tests < tests_alone; ++candidate)
     check(candidate);
   if (workers_.count() > 1) ask_about_small_pairs(candidate);
   for (; candidate < candidates_.size(); ++candidate) check(candidate);
@@ -207,8 +205,8 @@ void Exact_pairs<Volume>::find_contacts(std::size_t candidate, Pair_result& resu
   result.collides = contacts.collides;
   result.near = contacts.near;
   result.capped = contacts.capped;
-  result.candidates = contacts.leaf_tests;
-  frame_.statistics().candidates += contacts.leaf_tests;
+  result.leaf_tests = contacts.leaf_tests;
+  frame_.statistics().leaf_tests += contacts.leaf_tests;
   frame_.statistics().exact_tests += contacts.exact_tests;
 }
 

@@ -22,15 +22,16 @@ using Object_id = std::uint32_t;
 ///
 /// An object is built once, in its first frame, and again after the caller's `rebuild`. What its motion asks for later
 /// counts as `repartition`: a new partition of an object that has outgrown A*, a new tree for one that has become
-/// loose.
+/// loose. With meetings nearly all time of a frame is `confirmation`: there the search is no stage of its own.
 struct Stage_times {
   double build = 0;         ///< numbering, partition and tree of objects that are new, or that the caller rebuilt
   double repartition = 0;   ///< growth checks and repartitions; in mode exact rebuilding loose trees
   double refit = 0;         ///< mode exact: reading all positions, fitting all volumes
-  double broad_phase = 0;   ///< reading the particles, candidate object pairs
-  double relaxation = 0;    ///< particles walking
-  double candidates = 0;    ///< particle pairs below the collision distance
-  double confirmation = 0;  ///< exact checks of candidate regions; in mode exact with the walk that finds them
+  double broad_phase = 0;   ///< reading the particles, or with meetings the anchors of regions; candidate object pairs
+  double relaxation = 0;    ///< particles walking as published
+  double candidates = 0;    ///< as published: particle pairs below the collision distance
+  double confirmation = 0;  ///< as published: exact checks of candidate regions. With meetings, and in modes exact and
+                            ///< certified: the whole search of all pairs, and what was asked for about their contacts
 
   /// All stages but `build`: what a frame takes once its objects stand.
   double without_build() const { return repartition + refit + broad_phase + relaxation + candidates + confirmation; }
@@ -51,8 +52,9 @@ struct Frame_statistics {
   std::size_t nodes_bounded = 0;      ///< mode certified: boxes that come from bounds, without reading
   std::size_t leaves_posed = 0;       ///< mode certified: leaves of objects with bounds that were read
   std::size_t violations = 0;         ///< mode certified: promises that what was read did not keep
-  std::size_t candidates = 0;         ///< candidate region pairs; in modes exact and certified pairs of leaves tested
-  std::size_t openings = 0;           ///< pairs of leaves that were compared below opened regions, and along curves
+  std::size_t candidates = 0;         ///< modes with particles: candidate region pairs
+  std::size_t leaf_tests = 0;         ///< pairs of leaves whose faces were compared; with meetings below regions that
+                                      ///< may touch, and along curves
   std::size_t exact_tests = 0;        ///< face pairs given to the exact test
   std::size_t contacts = 0;           ///< face pairs that are listed, each once: see `face_pairs`
   std::size_t builds = 0;             ///< objects built: see Stage_times
@@ -73,8 +75,8 @@ struct Pair_result {
   bool collides = false;          ///< two faces intersect
   bool near = false;              ///< two faces are nearer than the tolerance, or intersect; false without a tolerance.
                                   ///< Within one object faces that were near when it was built do not count
-  std::size_t candidates = 0;     ///< candidate region pairs; in modes exact and certified pairs of leaves that were
-                                  ///< tested
+  std::size_t candidates = 0;     ///< modes with particles: candidate region pairs
+  std::size_t leaf_tests = 0;     ///< pairs of leaves whose faces were compared
   std::size_t first_contact = 0;  ///< index of the first of its face pairs in `Frame::face_pairs`
   std::size_t contacts = 0;       ///< number of its face pairs in `Frame::face_pairs`
   bool capped = false;            ///< there are more face pairs than `Detector_options::most_contacts`
@@ -144,29 +146,13 @@ struct Frame {
     return std::span(patches).subspan(pair.first_patch, pair.patches);
   }
   /// Whether any pair collides.
-  bool collides() const {
-    for (const auto& pair : pairs)
-      if (pair.collides) return true;
-    return false;
-  }
+  bool collides() const { return std::ranges::any_of(pairs, &Pair_result::collides); }
   /// Whether any pair is near.
-  bool near() const {
-    for (const auto& pair : pairs)
-      if (pair.near) return true;
-    return false;
-  }
+  bool near() const { return std::ranges::any_of(pairs, &Pair_result::near); }
   /// Whether `face_pairs` lacks some that were cut off by `Detector_options::most_contacts`.
-  bool capped() const {
-    for (const auto& pair : pairs)
-      if (pair.capped) return true;
-    return false;
-  }
+  bool capped() const { return std::ranges::any_of(pairs, &Pair_result::capped); }
   /// Whether the budget of openings ended the search of a pair: see `Pair_result::unfinished`.
-  bool unfinished() const {
-    for (const auto& pair : pairs)
-      if (pair.unfinished) return true;
-    return false;
-  }
+  bool unfinished() const { return std::ranges::any_of(pairs, &Pair_result::unfinished); }
 };
 
 }  // namespace lodestone

@@ -9,7 +9,7 @@
 
 namespace lodestone {
 
-/// The model of Detection for the mode that the options name: the only place that lists them.
+/// The model of Detection for the mode that the options name: the only place that makes them.
 /// @throws Bad_argument  an option out of range
 template <Bounding_volume Volume>
 std::unique_ptr<Detection> make_detection(const Detector_options& options) {

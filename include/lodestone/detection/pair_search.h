@@ -16,7 +16,7 @@ namespace lodestone {
 /// What a search has cost since the start of the frame.
 struct Meeting_counts {
   std::size_t meetings = 0;       ///< walks of two particles towards each other
-  std::size_t openings = 0;       ///< leaf pairs whose faces were compared
+  std::size_t leaf_tests = 0;     ///< leaf pairs whose faces were compared
   std::size_t exact_tests = 0;    ///< face pairs given to exact predicates
   std::size_t vertices_read = 0;  ///< by walks and checks; what trees read, they count themselves
 };
@@ -25,21 +25,21 @@ struct Meeting_counts {
 struct Pair_lists {
   std::vector<Near_regions> near_regions;  ///< see `Met_pair::near_regions`
   std::vector<Remembered_meeting> seeds;   ///< see `Met_pair::seeds`
-  std::vector<Face_pair> opened;           ///< see `Met_pair::opened`
+  std::vector<Face_pair> of_look;          ///< see `Met_pair::contacts_of_look`
   std::vector<Leaf_pair> compared;         ///< see `Met_pair::compared`
-  std::vector<Face_pair> contacts;         ///< see `Met_pair::contacts`
+  std::vector<Face_pair> of_curves;        ///< see `Met_pair::contacts_of_curves`
 
   /// Forgets all pairs.
   void clear() {
     near_regions.clear();
     seeds.clear();
-    opened.clear();
+    of_look.clear();
     compared.clear();
-    contacts.clear();
+    of_curves.clear();
   }
 };
 
-/// Entries of one pair in such a list.
+/// Entries of one pair in such a list. All pairs share a list, so that a frame allocates nothing.
 struct Entries {
   std::size_t first = 0;  ///< index of the first
   std::size_t count = 0;  ///< how many they are
@@ -60,10 +60,11 @@ struct Met_pair {
   const Pair_lists* followed_in = nullptr;  ///< of the search that has followed its curves; null: none has
   Entries near_entries = {};                ///< in the lists
   Entries seed_entries = {};                ///< in the lists
-  Entries opened_entries = {};              ///< in the lists
+  Entries look_entries = {};                ///< in the lists
   Entries compared_entries = {};            ///< in the lists
-  Entries contact_entries = {};             ///< in the lists of `followed_in`
-  std::size_t followed_count = 0;           ///< of `opened()`, the contacts of curves, which come first
+  Entries curve_entries = {};               ///< in the lists of `followed_in`
+  std::size_t followed_count = 0;           ///< of `contacts_of_look()`, those of known curves, which come first
+  std::size_t leaf_tests = 0;               ///< leaf pairs whose faces were compared
   bool out_of_budget = false;               ///< the regions could not all be opened
   bool limited = false;                     ///< the budget could have ended the openings
 
@@ -71,13 +72,13 @@ struct Met_pair {
   std::span<const Near_regions> near_regions() const { return near_entries.of(lists->near_regions); }
   /// Where its particles met, and the contacts there. If they met nowhere, one contact that openings found.
   std::span<const Remembered_meeting> seeds() const { return seed_entries.of(lists->seeds); }
-  /// The contacts that curves and openings gave to `look`.
-  std::span<const Face_pair> opened() const { return opened_entries.of(lists->opened); }
+  /// The contacts that `look` has found, on the curves of the last frame and by openings.
+  std::span<const Face_pair> contacts_of_look() const { return look_entries.of(lists->of_look); }
   /// Leaf pairs that have been compared.
   std::span<const Leaf_pair> compared() const { return compared_entries.of(lists->compared); }
-  /// The contacts of the curves through its seeds.
-  std::span<const Face_pair> contacts() const {
-    return followed_in != nullptr ? contact_entries.of(followed_in->contacts) : std::span<const Face_pair>();
+  /// All contacts, those of `look` included, once `follow_curves` has gone through them and on along their curves.
+  std::span<const Face_pair> contacts_of_curves() const {
+    return followed_in != nullptr ? curve_entries.of(followed_in->of_curves) : std::span<const Face_pair>();
   }
 
   /// Whether several threads may read both objects at once.
@@ -105,7 +106,7 @@ class Pair_search {
   void follow_curves(Met_pair& pair, Workers& workers);
   /// The same, but forgets the contacts of all pairs before.
   void follow_curves_alone(Met_pair& pair, Workers& workers) {
-    lists_.contacts.clear();
+    lists_.of_curves.clear();
     follow_curves(pair, workers);
   }
 
@@ -125,7 +126,7 @@ class Pair_search {
   std::size_t most_whole() const;
   void begin_openings(const Met_pair& pair, bool opened);
   void follow_known_curves(const Met_pair& pair, Workers& workers);
-  void count_openings();
+  void count_openings(Met_pair& pair);
   void add_seed(Met_pair& pair, const Remembered_meeting& seed);
 
   const Detector_options& options_;

@@ -55,14 +55,14 @@ class Particle_object {
   /// Divides the surface into `regions` regions, by the strategy, which is the caller's. O(V) and more.
   Numbered_partition divide(const Positions& positions, std::size_t regions, const Partition_options& options) const;
   /// Takes a division, and puts a particle in each of its regions. O(V).
-  void settle(Numbered_partition division, const Positions& positions, Workers& workers = Workers::alone());
-  /// Lists the faces of each region, for `posed_patch`. After `settle`. O(V + F).
+  void take_division(Numbered_partition division, const Positions& positions, Workers& workers = Workers::alone());
+  /// Lists the faces of each region, for `posed_patch`. After `take_division`. O(V + F).
   void prepare_patches();
-  /// Builds what meetings need: the tree below the regions. After `settle`. O(F log F).
+  /// Builds what meetings need: the tree below the regions. After `take_division`. O(F log F).
   void prepare_meetings(const Positions& positions, const Region_tree_options& options,
                         Workers& workers = Workers::alone());
 
-  /// Scatters `particles` over the surface: the predecessor's start, in place of `divide` and `settle`.
+  /// Scatters `particles` over the surface: the predecessor's start, in place of `divide` and `take_division`.
   void scatter(const Positions& positions, std::size_t particles, const Senin_options& options);
 
   /// Writes what was built. Only if something was.

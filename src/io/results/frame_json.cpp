@@ -17,7 +17,7 @@ nlohmann::ordered_json statistics_json(const Frame_statistics& statistics, Mode 
   if (mode == Mode::certified && independent)
     return {{"contacts", statistics.contacts}, {"builds", statistics.builds}, {"rebuilds", statistics.repartitions}};
   if (finds_all(mode)) {
-    Json json{{"leaf_tests", statistics.candidates}, {"exact_tests", statistics.exact_tests},
+    Json json{{"leaf_tests", statistics.leaf_tests}, {"exact_tests", statistics.exact_tests},
               {"contacts", statistics.contacts},     {"builds", statistics.builds},
               {"rebuilds", statistics.repartitions}, {"vertices_read", statistics.vertices_read}};
     if (mode == Mode::certified) {
@@ -32,7 +32,7 @@ nlohmann::ordered_json statistics_json(const Frame_statistics& statistics, Mode 
           {"relaxed", statistics.relaxed},
           {"candidates", statistics.candidates},
           {"meetings", statistics.meetings},
-          {"leaf_tests", statistics.openings},
+          {"leaf_tests", statistics.leaf_tests},
           {"exact_tests", statistics.exact_tests},
           {"contacts", statistics.contacts},
           {"builds", statistics.builds},
