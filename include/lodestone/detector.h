@@ -26,10 +26,8 @@ namespace lodestone {
 ///
 ///     Detector detector;
 ///     const auto teapot = detector.add(teapot_mesh), sphere = detector.add(sphere_mesh);
-///     while (simulate(teapot_mesh, sphere_mesh)) {
-///       detector.update();
+///     while (simulate(teapot_mesh, sphere_mesh))
 ///       for (const auto& pair : detector.detect().pairs) ...
-///     }
 ///
 /// The caller keeps the meshes, of any types, and moves their vertices. The meshes must outlive the detector, or the
 /// removal of their objects, and must be neither moved nor assigned to. The caller calls `rebuild` after any change of
@@ -37,8 +35,12 @@ namespace lodestone {
 ///
 /// The mode decides how much of a mesh a frame reads, and what it may miss: see `Particle_detection` and
 /// `Exact_detection`. What is said of mode `exact` holds for mode `certified` too, unless it says otherwise. Every
-/// query asks for the current vertex positions, so results are never stale: see also `hold_positions`. One thread at a
-/// time may use a detector.
+/// query asks for the current vertex positions, so results are never stale: see also `hold_positions`. In modes with
+/// particles call `update` before `detect`: it notices regions that have grown. One thread at a time may use a detector.
+///
+/// Functions of yours that a detector calls must not call it: visitors, point maps, strategies, promises. From there,
+/// every call that is not const throws Bad_argument, but for `ignore` and `hold_positions`. So do queries, `save`, and in mode `particles` `update`, in a thread that flushes denormal numbers to
+/// zero, or rounds other than to nearest.
 ///
 /// A call that runs out of memory throws std::bad_alloc, and nothing leaks. Repeat it, or go on without it: the next
 /// `detect` is right. A `rebuild` may or may not have taken effect.
@@ -50,7 +52,8 @@ namespace lodestone {
 template <class Strategy = Lbg, Bounding_volume Volume = Aabb>
 class Detector {
   static_assert(requires(const Strategy& s) { { s.name } -> std::convertible_to<std::string_view>; },
-                "the first template argument of Detector is the partition strategy, not the type of the meshes");
+                "the first template argument of Detector is the partition strategy, which needs a `name`; it is not the type of "
+                "the meshes");
 
  public:
   /// A detector without objects.
@@ -161,7 +164,7 @@ class Detector {
 
   /// What has been built of an object, as bytes to keep, for `load`: its tree, or its partition, particles and tree. It
   /// is built first if it has not been, as `detect` would. Same bytes for the same mesh and options. O(V + F).
-  /// @throws Bad_argument  no such object, a call of a visitor
+  /// @throws Bad_argument  no such object
   /// @throws Bad_mesh      as `detect`
   std::vector<std::byte> save(Object_id object) {
     State_writer state;
@@ -171,7 +174,7 @@ class Detector {
   /// Takes what was saved of an object with the same faces, by a detector of the same mode, in place of building it.
   /// Positions may be others than when it was saved. It has the regions, particles and leaves with which it was saved,
   /// whatever the options say; they count when it is built anew. O(V + F).
-  /// @throws Bad_argument      no such object, a call of a visitor
+  /// @throws Bad_argument      no such object
   /// @throws Bad_saved_object  the bytes are broken, or from another mode, mesh or format, or a tolerance within
   ///                           objects needs positions at rest, with which they were not saved; the object stays as it
   ///                           was
@@ -183,7 +186,7 @@ class Detector {
   /// Removes an object. The others keep their ids, and no object is given this one again. Afterwards the detector
   /// refers to its mesh no more; `v:region` and `v:particle` stay on it as they are. O(n log n) for its n ignored
   /// pairs.
-  /// @throws Bad_argument  no such object, a call of a visitor
+  /// @throws Bad_argument  no such object
   void remove(Object_id object) {
     detection_->remove(checked(object));
     filter_.remove(object);
@@ -215,7 +218,7 @@ class Detector {
 
   /// Shows the contacts of two objects to a visitor, which may stop the walk: see `visit_contacts`. Mode `exact`, with
   /// its tolerance; caps and collision filters do not apply. The visitor must not call the detector.
-  /// @throws Bad_argument  no such object, one and the same, another mode, a call of the visitor
+  /// @throws Bad_argument  no such object, one and the same, another mode
   /// @throws Bad_mesh      as `detect`
   template <Contact_visitor Visitor>
   Visit visit(Object_id a, Object_id b, Visitor&& visitor) {

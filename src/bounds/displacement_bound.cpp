@@ -138,15 +138,15 @@ void Displacement_promise::check(std::span<const double> per_region) const {
 }
 
 /// None for the identity.
-std::optional<Displacement_promise::Frame> Displacement_promise::checked(const Eigen::Isometry3d& frame) {
+std::optional<Displacement_promise::Rigid_frame> Displacement_promise::checked(const Eigen::Isometry3d& frame) {
   if (!make_rigid_motion(frame)) return std::nullopt;
   const Eigen::Matrix3d rotation = frame.linear();
   // Each of the nine entries is rounded less than 4 times, and is about 1 at most.
   const double defect = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm() + 32 * unit_roundoff;
-  return Frame{.rotation = rotation, .translation = frame.translation(), .defect = defect};
+  return Rigid_frame{.rotation = rotation, .translation = frame.translation(), .defect = defect};
 }
 
-Aabb Displacement_promise::Frame::to_world(const Aabb& box) const {
+Aabb Displacement_promise::Rigid_frame::to_world(const Aabb& box) const {
   Aabb world{};
   for (Eigen::Index row = 0; row < 3; ++row) {
     double low = translation[row], high = low, magnitude = std::abs(low);
@@ -165,7 +165,8 @@ Aabb Displacement_promise::Frame::to_world(const Aabb& box) const {
   return world;
 }
 
-Aabb Displacement_promise::Frame::to_frame(std::span<const std::uint32_t> vertices, Coordinates coordinates) const {
+Aabb Displacement_promise::Rigid_frame::to_frame(std::span<const std::uint32_t> vertices,
+                                                 Coordinates coordinates) const {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   double farthest = 0;
   for (const auto vertex : vertices) {
@@ -186,7 +187,7 @@ Aabb Displacement_promise::Frame::to_frame(std::span<const std::uint32_t> vertic
   return box;
 }
 
-Aabb Displacement_promise::Frame::to_frame(const Aabb& box) const {
+Aabb Displacement_promise::Rigid_frame::to_frame(const Aabb& box) const {
   const Eigen::Vector3d low = Eigen::Map<const Eigen::Vector3d>(box.low) - translation;
   const Eigen::Vector3d high = Eigen::Map<const Eigen::Vector3d>(box.high) - translation;
   const double margin = margin_to_frame(low.cwiseAbs().cwiseMax(high.cwiseAbs()).sum());
@@ -201,7 +202,7 @@ Aabb Displacement_promise::Frame::to_frame(const Aabb& box) const {
 }
 
 /// How far ends are moved outwards for vertices that are at most so far from where the frame is.
-double Displacement_promise::Frame::margin_to_frame(double farthest) const {
+double Displacement_promise::Rigid_frame::margin_to_frame(double farthest) const {
   return (2 * defect + 64 * unit_roundoff) * farthest + 64 * unit_roundoff * translation.lpNorm<1>() + underflow;
 }
 

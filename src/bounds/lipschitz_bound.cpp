@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/bounds/lipschitz_bound.h"
 
-#include <cmath>
-
 #include "bounds/grown_box.h"
 #include "lodestone/mesh/errors.h"
 

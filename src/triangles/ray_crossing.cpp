@@ -2,7 +2,6 @@
 #include "lodestone/triangles/ray_crossing.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace lodestone {
 
@@ -36,13 +35,6 @@ bool crosses_upward_ray(const Triangle& t, const Point& p) {
   // `turn` is the sense of the corners seen from above, so p is below their plane if it has the opposite orientation.
   // If p is in the plane, it is on the triangle.
   return CGAL::orientation(t[0], t[1], t[2], p) == -turn;
-}
-
-bool point_inside(const Point& p, std::span<const Corners> corners, std::span<const double> positions) {
-  bool inside = false;
-  const auto position = [&](std::uint32_t vertex) { return positions.subspan(3 * std::size_t{vertex}, 3); };
-  for (const auto& face : corners) inside ^= crosses_upward_ray(face_triangle(face, position), p);
-  return inside;
 }
 
 }  // namespace lodestone

@@ -103,9 +103,11 @@ class Displacement_promise {
   void move(double distance, const Eigen::Isometry3d& frame);
   /// No vertex of region i has moved farther than `per_region[i]`. Vertices of several regions together can have moved
   /// by the largest.
-  /// @throws Bad_argument  there is not one distance for each region
+  /// @throws Bad_argument  there is not one distance for each region, or one is out of range; the promise stays as it
+  ///                       was
   void move(std::span<const double> per_region);
   /// Both: distances by region, in a rigid frame.
+  /// @throws Bad_argument  as the two calls above
   void move(std::span<const double> per_region, const Eigen::Isometry3d& frame);
 
   /// Number of regions that `move` tells apart.
@@ -120,7 +122,7 @@ class Displacement_promise {
   friend class Displacement_bound;
 
   /// A frame that is not the identity.
-  struct Frame {
+  struct Rigid_frame {
     Eigen::Matrix3d rotation;
     Eigen::Vector3d translation;
     double defect;  ///< an upper bound of |R^T R - I|
@@ -132,12 +134,12 @@ class Displacement_promise {
     Aabb to_frame(const Aabb& box) const;
     double margin_to_frame(double farthest) const;
   };
-  static std::optional<Frame> checked(const Eigen::Isometry3d& frame);
+  static std::optional<Rigid_frame> checked(const Eigen::Isometry3d& frame);
   void check(std::span<const double> per_region) const;
 
   std::vector<double> totals_;  ///< per region
   double largest_total_ = 0;    ///< of the largest distances
-  std::optional<Frame> frame_;
+  std::optional<Rigid_frame> frame_;
 };
 
 }  // namespace lodestone

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <concepts>
-#include <limits>
 #include <span>
 #include <string_view>
 #include <utility>

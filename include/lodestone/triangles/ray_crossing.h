@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
-#include <span>
-
-#include "lodestone/mesh/mesh_numbering.h"
 #include "lodestone/triangles/triangle_intersection.h"
 
 /// Containment in a closed mesh: a vertical ray from a point inside crosses its faces an odd number of times.
@@ -23,10 +19,5 @@ namespace lodestone {
 /// Hence the number of faces of a closed mesh (`is_closed`) that the ray crosses is odd exactly if p is inside. If p is
 /// on the triangle, either answer may be given.
 bool crosses_upward_ray(const Triangle& t, const Point& p);
-
-/// Whether a point is inside a closed mesh. Tests every face: O(F). A point inside an even number of shells, nested or
-/// overlapping, is outside. If the point is on the surface, either answer may be given.
-/// @param positions  3 V coordinates, all finite
-bool point_inside(const Point& p, std::span<const Corners> corners, std::span<const double> positions);
 
 }  // namespace lodestone
