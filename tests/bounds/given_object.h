@@ -2,6 +2,8 @@
 // An object whose positions are given, and how its nodes lie in their boxes.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
@@ -132,5 +134,22 @@ inline const Aabb open_box = [] {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return Aabb{.low = {-infinity, -infinity, -infinity, 0}, .high = {infinity, infinity, infinity, 0}};
 }();
+
+/// Each vertex of a chain in turn is off to one side, all others to the other: two errors apart, whichever is read.
+template <class Promise>
+void expect_inside_off_both_ways(const Promise& promise) {
+  Face_soup chain;
+  for (std::uint32_t v = 0; v < 40; ++v) {
+    chain.coordinates.insert(chain.coordinates.end(), {static_cast<double>(v), 0, 0});
+    if (v >= 2) chain.faces.push_back({v - 2, v - 1, v});
+  }
+  Given_object object(chain, 8);
+  const auto bound = promise.bound(object.bounded());
+  for (std::uint32_t other = 0; other < object.vertex_count(); ++other) {
+    object.pose([](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x() + 10, 0, 0); });
+    object.put(other, object.at_rest(other) - Eigen::Vector3d(10, 0, 0));
+    EXPECT_EQ(nodes_outside(bound, object), 0U) << other;
+  }
+}
 
 }  // namespace lodestone

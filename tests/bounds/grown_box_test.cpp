@@ -34,5 +34,13 @@ TEST(Next_double, is_that_of_nextafter) {
   EXPECT_TRUE(std::isnan(next_below(Limits::quiet_NaN())));
 }
 
+TEST(Grown, holds_what_lies_just_outside_doubles_of_the_box) {
+  const Aabb box = grown({.low = {1, 1, 1, 0}, .high = {1, 1, 1, 0}}, 0x1p-60);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_LT(box.low[axis], 1);
+    EXPECT_GT(box.high[axis], 1);
+  }
+}
+
 }  // namespace
 }  // namespace lodestone

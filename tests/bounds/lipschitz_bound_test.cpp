@@ -251,5 +251,20 @@ TEST(Deformed_points, their_constant_is_that_of_the_current_frame) {
   EXPECT_EQ(wild.lipschitz_constant(), std::numeric_limits<double>::infinity());
 }
 
+TEST(Lipschitz_bound, contains_errors_both_ways) {
+  Lipschitz_promise promise(1);
+  promise.set_constant(1, 10);
+  expect_inside_off_both_ways(promise);
+}
+
+TEST(Lipschitz_bound, contains_the_smallest_numbers) {
+  Given_object object(potato(3), 4);
+  object.pose([](const Eigen::Vector3d& p) { return Eigen::Vector3d(1e-320 * p); });
+  const auto tiny = object.now;
+  object.rest.coordinates = tiny;
+  const Lipschitz_promise promise(1);
+  EXPECT_EQ(nodes_outside(promise.bound(object.bounded()), object), 0U);
+}
+
 }  // namespace
 }  // namespace lodestone

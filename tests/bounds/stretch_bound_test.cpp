@@ -339,5 +339,7 @@ TEST(Stretch_promise, refuses_what_is_no_stretch) {
   EXPECT_EQ(promise.error(), 1);
 }
 
+TEST(Stretch_bound, contains_errors_both_ways) { expect_inside_off_both_ways(Stretch_promise(1, 10)); }
+
 }  // namespace
 }  // namespace lodestone

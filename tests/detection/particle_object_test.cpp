@@ -161,6 +161,22 @@ TEST(Particle_object, a_patch_with_a_coordinate_that_is_not_finite_is_refused) {
   }
 }
 
+TEST(Particle_object, looked_at_one_region_per_call_is_looked_at_everywhere) {
+  for (Region_index grown = 0; grown < 6; ++grown) {
+    Counted_object counted(grid(17, 17), 6);
+    const auto& labels = counted.object.labels();
+    const auto home = counted.at(counted.object.particles().at[grown]);
+    for (const auto v : counted.mesh.vertices())
+      if (labels[v] == grown) {
+        const Eigen::Vector3d p = home + 20 * (counted.at(v) - home);
+        counted.mesh.point(v) = Point(p.x(), p.y(), p.z());
+      }
+    bool outgrown = false;
+    for (int call = 0; call < 6; ++call) outgrown |= counted.object.has_outgrown(2, 1);
+    EXPECT_TRUE(outgrown) << grown;
+  }
+}
+
 TEST(Particle_object, has_not_outgrown_itself_when_nothing_has_moved) {
   for (const auto& mesh : {potato(8), sphere(8), grid(9, 9), cube(4), single_triangle()})
     for (const std::size_t regions : {1, 3, 24})

@@ -17,6 +17,7 @@ class Busy {
     check(flag);
     flag = true;
   }
+  /// The mode stays busy as long as this lives.
   Busy(Busy&& other) noexcept : flag_(std::exchange(other.flag_, nullptr)) {}
   Busy& operator=(Busy&&) = delete;
   ~Busy() {

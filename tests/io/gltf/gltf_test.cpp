@@ -173,6 +173,29 @@ TEST_F(Gltf, normalized_integers_and_strides_are_read) {
   expect_near(at_rest(sample), {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, -1}});
 }
 
+TEST_F(Gltf, sparse_values_have_offsets_and_may_be_normalized) {
+  auto sample = square_gltf();
+  const auto view =
+      sample.add_view(packed<std::int16_t>({0, 0, 0, 99, 32767, 0, 0, 99, 32767, 32767, 0, 99, 0, 32767, 0, 99}));
+  sample.json["bufferViews"][view]["byteStride"] = 8;
+  const auto indices = sample.add_view(packed<std::uint8_t>({0, 0, 1, 3}));
+  const auto values = sample.add_view(packed<std::int16_t>({7, 7, 0, 0, 32767, 0, 0, -32767}));
+  const Json sparse{{"count", 2},
+                    {"indices", {{"bufferView", indices}, {"byteOffset", 2}, {"componentType", 5121}}},
+                    {"values", {{"bufferView", values}, {"byteOffset", 4}}}};
+  sample.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = sample.add_accessor({{"bufferView", view},
+                                                                                             {"componentType", 5122},
+                                                                                             {"normalized", true},
+                                                                                             {"count", 4},
+                                                                                             {"type", "VEC3"},
+                                                                                             {"sparse", sparse}});
+  sample.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+  const auto points = at_rest(sample);
+  EXPECT_EQ(points.at(0), Point(0, 0, 0));
+  EXPECT_EQ(points.at(1), Point(0, 0, 1));
+  EXPECT_EQ(points.at(3), Point(0, 0, -1));
+}
+
 TEST_F(Gltf, a_sparse_accessor_may_hold_all_that_is_stored) {
   auto sample = square_gltf();
   const auto indices = sample.add_view(packed<std::uint8_t>({0, 1, 2, 3, 4, 5, 6}));

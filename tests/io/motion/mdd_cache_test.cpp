@@ -34,6 +34,14 @@ class Mdd_cache : public Point_cache_files {
 
 TEST_F(Mdd_cache, gives_each_frame_in_any_order) { expect_three_frames(mdd_of_three_frames()); }
 
+TEST_F(Mdd_cache, starts_at_its_first_time) {
+  const auto file =
+      folder.write("a.mdd", mdd_header(3, 1) + big_floats({2, 2.5, 3}) + big_floats({0, 0, 0, 1, 1, 1, 2, 2, 2}));
+  EXPECT_EQ(read_point_cache_header(file).start, 2);
+  EXPECT_EQ(read_mdd_cache(file, 1).start, 2);
+  EXPECT_EQ(read_mdd_cache(file, 1).frames_per_second, 2);
+}
+
 TEST_F(Mdd_cache, header_gives_counts_and_rate) {
   const auto cache = read_point_cache_header(folder.write("a.MDD", mdd_of_three_frames()));
   EXPECT_EQ(cache.format, Cache_format::mdd);
