@@ -60,6 +60,7 @@ void Particle_detection::name_the_bad_object() {
 void Particle_detection::find_near_objects(const Collision_filter& filter) {
   find_regions();
   list_object_pairs(filter);
+  tighten_boxes();
   met_pairs_.clear();
   for (const auto pair : object_candidates_)
     met_pairs_.push_back(
@@ -86,22 +87,39 @@ void Particle_detection::find_regions() {
   }
 }
 
-/// Reads where the regions of all objects are. What a mesh computes when it is read, only this thread may read.
-void Particle_detection::read_regions() {
+/// Does what reads an object for each of them, side by side. What a mesh computes when it is read, only this thread may
+/// read.
+template <class Read>
+void Particle_detection::read_each(const Read& read) {
   constexpr std::size_t objects_per_task = 16;  // some ten microseconds
-  for (const Object_id o : ids_) objects_[o]->named([&] { objects_[o]->particle_object.start_frame(); });
-  const auto read = [this](Object_id o, bool shared) {
-    auto& object = objects_[o]->particle_object;
-    if (object.positions().is_shared() != shared) return;
-    objects_[o]->named([&] { object.read_regions(options_.opening_reach); });
-    boxes_[o] = object.region_anchors().box();
+  const auto read_if = [&](Object_id o, bool shared) {
+    if (objects_[o]->particle_object.positions().is_shared() == shared) objects_[o]->named([&] { read(o); });
   };
   const auto read_some = [&](std::size_t task, std::size_t) {
     const std::size_t first = task * objects_per_task, count = std::min(objects_per_task, ids_.size() - first);
-    for (const Object_id o : std::span(ids_).subspan(first, count)) read(o, true);
+    for (const Object_id o : std::span(ids_).subspan(first, count)) read_if(o, true);
   };
   workers_.run((ids_.size() + objects_per_task - 1) / objects_per_task, std::cref(read_some));
-  for (const Object_id o : ids_) read(o, false);
+  for (const Object_id o : ids_) read_if(o, false);
+}
+
+/// Reads where the regions of all objects are.
+void Particle_detection::read_regions() {
+  for (const Object_id o : ids_) objects_[o]->named([&] { objects_[o]->particle_object.start_frame(); });
+  read_each([this](Object_id o) {
+    auto& object = objects_[o]->particle_object;
+    object.read_regions(options_.opening_reach);
+    boxes_[o] = object.region_anchors().box();
+  });
+}
+
+/// Fits the boxes of small objects that seem near others, and drops the pairs whose boxes are apart.
+void Particle_detection::tighten_boxes() {
+  read_each([this](Object_id o) {
+    auto& object = objects_[o]->particle_object;
+    if (!opponents_[o].empty() && object.fit_regions_if_small()) boxes_[o] = object.region_anchors().box();
+  });
+  std::erase_if(object_candidates_, [this](Object_pair pair) { return !boxes_[pair.a].intersects(boxes_[pair.b]); });
 }
 
 /// Where the budget has ended the openings, lets the particles walk whose regions may touch one of the other object;

@@ -10,8 +10,8 @@ namespace lodestone {
 
 namespace {
 
-/// A surface of so few vertices is read as a whole, in less time than pairs of objects take that boxes around anchors
-/// would let pass.
+/// Vertices of a surface that is small: to read them takes less time than a pair of objects that boxes around anchors
+/// would let pass. Its anchors are nearly all of its vertices, and their radii nearly as long as it is wide.
 constexpr std::size_t most_of_small = 256;
 
 }  // namespace
@@ -142,23 +142,23 @@ void Region_anchors::read(Tree_on_demand& tree, double reach) {
     note_farthest(tree);
   else
     note_stretch(tree, mean(tree));
-  // The anchors of few vertices are nearly all of them, and their radii as long as the surface is wide.
-  const bool is_small = tree.vertex_count() <= most_of_small;
   box_.setEmpty();
-  if (is_small) {
-    tree.pose_below(0);
-    const Aabb& all = tree.box(0);
-    box_ = Box(Eigen::Vector3d(all.low[0], all.low[1], all.low[2]),
-               Eigen::Vector3d(all.high[0], all.high[1], all.high[2]));
-  }
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Eigen::Vector3d& anchor = tree.anchor(nodes_[i]);
     x_[i] = anchor.x(), y_[i] = anchor.y(), z_[i] = anchor.z();
     radius_[i] = reach * tree.radius(nodes_[i]);
-    if (is_small) continue;
     const Eigen::Vector3d radius = Eigen::Vector3d::Constant(radius_[i]);
     box_.extend(anchor - radius).extend(anchor + radius);
   }
+}
+
+bool Region_anchors::fit_if_small(Tree_on_demand& tree) {
+  if (tree.vertex_count() > most_of_small) return false;
+  tree.pose_below(0);
+  const Aabb& all = tree.box(0);
+  box_ =
+      Box(Eigen::Vector3d(all.low[0], all.low[1], all.low[2]), Eigen::Vector3d(all.high[0], all.high[1], all.high[2]));
+  return true;
 }
 
 bool Region_anchors::may_touch(std::uint32_t index, const Box& box) const {

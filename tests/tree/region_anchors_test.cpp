@@ -33,6 +33,7 @@ class Anchored_object {
     tree_.start_frame(Live_positions(now_.coordinates.data()));
     regions_.read(tree_, reach);
   }
+  bool fit_if_small() { return regions_.fit_if_small(tree_); }
   const Face_soup& rest() const { return rest_; }
   const Face_soup& now() const { return now_; }
   const Region_anchors& regions() const { return regions_; }
@@ -171,6 +172,7 @@ TEST(Region_anchors, the_box_of_a_small_surface_is_that_of_its_vertices) {
     Anchored_object object(soup);
     for (int pose = 0; pose < 3; ++pose) {
       object.move_to(posed_at_random(soup, 5, random), 2);
+      EXPECT_TRUE(object.fit_if_small());
       Box expected;
       for (const auto& face : object.now().faces)
         for (const auto v : face)

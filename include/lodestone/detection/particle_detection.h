@@ -139,6 +139,9 @@ class Particle_detection final : public Detection {
   void find_near_objects(const Collision_filter& filter);
   void find_regions();
   void read_regions();
+  void tighten_boxes();
+  template <class Read>
+  void read_each(const Read& read);
   void search_near_objects();
   void walk_undecided_particles();
   void add_pulls(const Met_pair& pair);

@@ -96,6 +96,8 @@ class Particle_object {
   /// Reads the anchors of the regions in this frame, after `start_frame`.
   /// @throws Bad_mesh  a coordinate is not finite
   void read_regions(double reach) { region_anchors_.read(tree_, reach); }
+  /// See Region_anchors.
+  bool fit_regions_if_small() { return region_anchors_.fit_if_small(tree_); }
   /// Where the regions are, as of the last `read_regions`.
   const Region_anchors& region_anchors() const { return region_anchors_; }
   /// The surface, for particles that may walk anywhere, after `prepare_meetings`.

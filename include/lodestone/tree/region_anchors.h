@@ -43,6 +43,11 @@ class Region_anchors {
   /// @param reach      a region is taken to lie within so many times its radius of its anchor
   /// @throws Bad_mesh  a coordinate is not finite
   void read(Tree_on_demand& tree, double reach);
+  /// Fits the box of a surface of at most 256 vertices to all of them: their radii make the one around anchors several
+  /// times too wide. Reads the surface as a whole.
+  /// @return whether the surface is so small
+  /// @throws Bad_mesh  a coordinate is not finite
+  bool fit_if_small(Tree_on_demand& tree);
 
   /// Number of regions that are listed.
   std::size_t size() const { return nodes_.size(); }
