@@ -4,7 +4,7 @@ cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=12
                 OUTPUT_VARIABLE revision OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
 if(revision MATCHES "-dirty$")  # two different changes have two names
-  execute_process(COMMAND git -C ${SOURCE} diff HEAD OUTPUT_VARIABLE change ERROR_QUIET)
+  execute_process(COMMAND git -C ${SOURCE} diff --no-ext-diff --no-color --binary HEAD OUTPUT_VARIABLE change ERROR_QUIET)
   string(SHA1 change "${change}")
   string(SUBSTRING ${change} 0 8 change)
   string(APPEND revision "-${change}")

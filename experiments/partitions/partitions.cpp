@@ -60,16 +60,10 @@ Sharded_experiment work_of(const std::vector<std::string>& ids) {
 /// In a journal, the id of the row that tells of which work it is.
 constexpr const char* row_of_work = "work";
 
-/// Removes the journal of a shard that holds runs of other work, such as of another revision; from one that is damaged,
-/// what comes after the damage.
-void drop_what_is_of_no_use(const Shard_folder& folder, std::size_t index) {
-  const auto journal = folder.journal(index);
-  if (!std::filesystem::exists(journal)) return;
-  if (const std::string whole = whole_rows(journal); whole.size() < std::filesystem::file_size(journal))
-    write_whole(journal, whole);
-  const auto rows = read_rows(journal);
-  const auto work = rows.find(row_of_work);
-  if (work == rows.end() || work->second.value("hash", "") != folder.work()) std::filesystem::remove(journal);
+/// Whether a journal holds runs of other work than a folder, such as of another revision.
+bool is_of_other_work(const Row_file& journal, const Shard_folder& folder) {
+  const auto work = journal.rows().find(row_of_work);
+  return work == journal.rows().end() || work->second.value("hash", "") != folder.work();
 }
 
 /// Makes the runs of one shard. Those that are finished are kept in its journal, and then in the shard, in order.
@@ -82,9 +76,9 @@ std::string make_shard(const Experiment_context& context, const std::vector<Part
   if (folder.is_done(index)) return said_of_shard(folder, index, runs.size());
   std::vector<std::string> ids;
   for (const auto run : runs) ids.push_back(all_ids[run]);
-  drop_what_is_of_no_use(folder, index);
   {
-    Row_file rows(folder.journal(index));
+    Row_file rows(folder.journal(index), Row_file::Damage::drop);
+    if (is_of_other_work(rows, folder)) rows.clear();
     rows.add({{"id", row_of_work}, {"hash", folder.work()}});
     const auto failures = sweep(
         ids, rows, {.jobs = context.jobs}, [&](std::size_t run) { return execute(plan[runs[run]]); }, context.progress);

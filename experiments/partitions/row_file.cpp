@@ -30,6 +30,14 @@ std::size_t whole_lines(std::string_view text) { return text.rfind('\n') + 1; }
 
 bool is_row(const Row_file::Row& json) { return json.is_object() && json.contains("id") && json["id"].is_string(); }
 
+/// @return length of the lines before the first one that is no row
+std::size_t whole_rows(std::string_view text) {
+  std::size_t whole = 0;
+  for (std::size_t end = 0; (end = text.find('\n', whole)) != std::string_view::npos; whole = end + 1)
+    if (!is_row(Row_file::Row::parse(text.substr(whole, end - whole), nullptr, false))) break;
+  return whole;
+}
+
 std::map<std::string, Row_file::Row> parsed(const std::filesystem::path& file, std::string_view lines) {
   std::map<std::string, Row_file::Row> rows;
   for (std::size_t number = 1; !lines.empty(); ++number) {
@@ -45,21 +53,12 @@ std::map<std::string, Row_file::Row> parsed(const std::filesystem::path& file, s
 
 }  // namespace
 
-std::string whole_rows(const std::filesystem::path& file) {
-  std::string text = content_of(file);
-  std::size_t whole = 0;
-  for (std::size_t end = 0; (end = text.find('\n', whole)) != std::string::npos; whole = end + 1)
-    if (!is_row(Row_file::Row::parse(std::string_view(text).substr(whole, end - whole), nullptr, false))) break;
-  text.resize(whole);
-  return text;
-}
-
 std::map<std::string, Row_file::Row> read_rows(const std::filesystem::path& file) {
   const std::string text = content_of(file);
   return parsed(file, std::string_view(text).substr(0, whole_lines(text)));
 }
 
-Row_file::Row_file(std::filesystem::path file) : file_(std::move(file)) {
+Row_file::Row_file(std::filesystem::path file, Damage damage) : file_(std::move(file)) {
   std::error_code error;
   std::filesystem::create_directories(file_.parent_path(), error);
   if (error) throw Bad_output(file_.parent_path().string() + ": cannot make the folder: " + error.message());
@@ -68,7 +67,7 @@ Row_file::Row_file(std::filesystem::path file) : file_(std::move(file)) {
   try {
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) fail("is in use by another sweep");
     const std::string text = content_of(file_);
-    const std::size_t whole = whole_lines(text);
+    const std::size_t whole = damage == Damage::drop ? whole_rows(text) : whole_lines(text);
     rows_ = parsed(file_, std::string_view(text).substr(0, whole));
     if (whole < text.size() && ::ftruncate(descriptor_, static_cast<off_t>(whole)) != 0) fail("cannot be mended");
   } catch (...) {
@@ -78,6 +77,11 @@ Row_file::Row_file(std::filesystem::path file) : file_(std::move(file)) {
 }
 
 Row_file::~Row_file() { ::close(descriptor_); }
+
+void Row_file::clear() {
+  if (::ftruncate(descriptor_, 0) != 0) fail("cannot be emptied");
+  rows_.clear();
+}
 
 void Row_file::add(const Row& row) {
   const auto id = row.at("id").get<std::string>();

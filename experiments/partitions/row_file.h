@@ -17,10 +17,16 @@ class Row_file {
  public:
   using Row = nlohmann::ordered_json;
 
+  /// What to do with a file in which a line is no JSON object with an `id`.
+  enum class Damage {
+    refuse,
+    drop,  ///< cut off that line and all after it
+  };
+
   /// Opens the file, or makes it with its folder.
   /// @throws Bad_output  it cannot be opened, or another program has it open
-  /// @throws Bad_argument  a whole line is no JSON object with an `id`
-  explicit Row_file(std::filesystem::path file);
+  /// @throws Bad_argument  it is damaged, and that is refused
+  explicit Row_file(std::filesystem::path file, Damage damage = Damage::refuse);
   Row_file(const Row_file&) = delete;
   Row_file& operator=(const Row_file&) = delete;
   ~Row_file();
@@ -30,6 +36,9 @@ class Row_file {
   /// @throws Bad_output
   void add(const Row& row);
   const std::map<std::string, Row>& rows() const { return rows_; }
+  /// Removes all rows.
+  /// @throws Bad_output
+  void clear();
 
  private:
   [[noreturn]] void fail(const char* action) const;
@@ -38,10 +47,6 @@ class Row_file {
   int descriptor_ = -1;
   std::map<std::string, Row> rows_;
 };
-
-/// The beginning of a file of rows, up to the first line that is none.
-/// @throws Bad_argument  no such file
-std::string whole_rows(const std::filesystem::path& file);
 
 /// Reads the rows of a file, whether or not a program has it open. A cut-off line at its end is left out.
 /// @throws Bad_argument  no such file; as Row_file

@@ -41,6 +41,7 @@ int run(const Experiment_command& command) {
   std::optional<Page_file> page;
   if (!command.html.empty()) page.emplace(command.html, out);
   std::string report;
+  if (!command.shard && command.write_meshes.empty()) Shard_folder::note_replaced(out);
   {
     Progress_bar bar(command.name, command.quiet);
     report = experiment->run({.scenes = scenes,
@@ -61,9 +62,13 @@ int run(const Experiment_command& command) {
     return exit_code::success;
   }
   const std::string report_file = command.name + ".md";
-  Shard_folder::note_replaced(out);
   write_whole(out / report_file, report);
-  if (command.merge_shards) Shard_folder(out).note_merged({report_file});
+  if (command.merge_shards) {
+    std::vector<std::string> files{report_file};
+    for (const char* file : {"rows.jsonl", "manifest.json"})
+      if (exists(out / file)) files.emplace_back(file);
+    Shard_folder(out).note_merged(files);
+  }
   if (!command.quiet)
     fmt::print("{}\n{}\n\n{}", experiment->question, std::string(experiment->question.size(), '='), report);
   if (page) {  // after the report, which must not be lost to a plot that cannot be drawn

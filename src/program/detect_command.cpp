@@ -54,6 +54,7 @@ void write_results(Detect_run& scene_run, std::optional<Atomic_file>& frames, co
   if (scene_run.page() != nullptr) scene_run.page()->finish();
   if (scene_run.paraview() != nullptr) scene_run.paraview()->finish();
   check_interrupt();  // a large page takes a while
+  if (frames) Shard_folder::note_replaced(command.out);
   if (frames) frames->commit();
   if (summary) summary->commit();
   if (scene_run.page() != nullptr) scene_run.page()->commit();
@@ -157,10 +158,7 @@ int run(const Detect_command& command) {
   if (command.shard) return run_shard(command);
   Detect_run scene_run(command);
   std::optional<Atomic_file> frames;
-  if (!command.out.empty()) {
-    frames.emplace(command.out / "frames.jsonl");
-    Shard_folder::note_replaced(command.out);
-  }
+  if (!command.out.empty()) frames.emplace(command.out / "frames.jsonl");
   if (command.merge_shards) {
     merge_shards(scene_run, *frames, command);
   } else {

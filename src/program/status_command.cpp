@@ -49,7 +49,9 @@ Shard_census census_of(const Shard_folder& folder, Shard_check check) {
 /// What must stand before a command that reads the inputs, which may be relative to where the shards were begun.
 std::string way_to_inputs(const Shard_folder& folder) {
   const std::string begun = folder.manifest()["folder"];
-  return begun == std::filesystem::current_path() ? "" : "cd " + shell_word(begun) + " && ";
+  std::error_code ignored;
+  const bool is_elsewhere = begun != std::filesystem::current_path() && std::filesystem::is_directory(begun, ignored);
+  return is_elsewhere ? "cd " + shell_word(begun) + " && " : "";
 }
 
 /// The folder of results, as one finds it from there.

@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <set>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -202,17 +203,27 @@ Shards_to_do shards_to_make(const Submit_command& command) {
   return result;
 }
 
+/// Where the tasks run: in the folder in which the shards of a folder were begun, since inputs may be relative to it.
+std::filesystem::path folder_of(const Submit_command& command) {
+  if (!exists(command.out / "shards" / "manifest.json")) return std::filesystem::current_path();
+  const std::filesystem::path begun = Shard_folder(command.out).manifest()["folder"].get<std::string>();
+  return is_directory(begun) ? begun : std::filesystem::current_path();
+}
+
 /// Makes one shard, which counts.
 /// @return its exit code; if it is not success, it has been said why
 int make_pilot(const Submit_command& command, std::size_t index, std::size_t shards) {
   std::vector<std::string> words{this_program()};
   words.insert(words.end(), command.words.begin(), command.words.end());
   const auto shard = fmt::format("{}/{}", index, shards);
-  words.insert(words.end(), {"--out", command.out.string(), "--shard", shard});
+  words.insert(words.end(), {"--out", absolute(command.out).string(), "--shard", shard});
   if (!quietly(command.words).empty()) words.emplace_back("--quiet");
   fmt::print("pilot: shard {}\n", shard);
   std::fflush(stdout);
+  const auto here = std::filesystem::current_path();
+  std::filesystem::current_path(folder_of(command));
   const int status = run_to_end(words, true).status;
+  std::filesystem::current_path(here);
   constexpr std::array told{exit_code::success,    exit_code::bad_usage,         exit_code::bad_input,
                             exit_code::bad_output, exit_code::contradicts_truth, exit_code::interrupted};
   if (!WIFEXITED(status) || std::ranges::find(told, WEXITSTATUS(status)) == told.end()) throw_failure(words[0], status);
@@ -227,19 +238,14 @@ int make_pilot(const Submit_command& command, std::size_t index, std::size_t sha
 /// the last, one of which is not.
 /// @return as `make_pilot`
 int run_pilot(const Submit_command& command, std::size_t shards) {
+  std::set<std::size_t> made;
   for (const std::size_t index : {(shards + 1) / 2, std::size_t{1}, shards}) {
+    if (!made.insert(index).second) continue;
     if (const int code = make_pilot(command, index, shards); code != exit_code::success) return code;
     const auto pilot = Shard_folder(command.out).status(index, Shard_check::record);
     if (pilot.state == Shard_state::done && pilot.record["lines"] > 0) break;
   }
   return exit_code::success;
-}
-
-/// Where the tasks run: in the folder in which the shards of a folder were begun, since inputs may be relative to it.
-std::filesystem::path folder_of(const Submit_command& command) {
-  if (!exists(command.out / "shards" / "manifest.json")) return std::filesystem::current_path();
-  const std::filesystem::path begun = Shard_folder(command.out).manifest()["folder"].get<std::string>();
-  return is_directory(begun) ? begun : std::filesystem::current_path();
 }
 
 std::size_t rounded_up(double value, std::size_t least) {
