@@ -162,7 +162,8 @@ class Check:
         select_faces(self.objects, self.look_at(self.frame_before))
 
     def go_back(self):
-        if self.scene.frame_current != self.frame_before:
+        now = (self.scene.frame_current, self.scene.frame_subframe)
+        if now != (self.frame_before, self.subframe_before):
             self.scene.frame_set(self.frame_before, subframe=self.subframe_before)
 
     def close(self):

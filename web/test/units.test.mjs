@@ -16,6 +16,16 @@ test('coordinates near the largest number are moved into the unit ball', () => {
   }
 });
 
+test('coordinates at the ends of the numbers are drawn', () => {
+  const m = Number.MAX_VALUE;
+  const object = { vertices: 2, box: [-m, -m, -m, m, m, m], frames: [[0, 0, 0, 65535, 65535, 65535]] };
+  const places = new Places(object, common_ball([object]));
+  for (const vertex of [0, 1]) {
+    const place = places.of_vertex(0, vertex);
+    assert.ok(place.every((x) => Math.abs(Math.abs(x) - 1) < 0.5), String(place));
+  }
+});
+
 test('frames are labelled by whole numbers, also where there are few', () => {
   const stage = (nearest) => ({ microseconds: { refit: 1 }, positive: nearest === 0, found: nearest === 0, near: null, nearest });
   const page = { header: { frames: 3, mode: 'exact' }, stages: [0, 1, 2].map(stage) };

@@ -9,7 +9,8 @@ export function common_ball(objects) {
   const most = [3, 4, 5].map((axis) => shown.reduce((x, { box }) => Math.max(x, box[axis]), -Infinity));
   // Halves, since sums and differences of coordinates can overflow.
   const half = most.map((x, axis) => x / 2 - least[axis] / 2);
-  return { centre: least.map((x, axis) => x / 2 + most[axis] / 2), radius: Math.hypot(...half) || 1 };
+  const radius = Math.min(4 * Math.hypot(...half.map((x) => x / 4)), Number.MAX_VALUE);
+  return { centre: least.map((x, axis) => x / 2 + most[axis] / 2), radius: radius || 1 };
 }
 
 /** Positions on one object. */
