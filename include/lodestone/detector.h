@@ -35,12 +35,13 @@ namespace lodestone {
 ///
 /// The mode decides how much of a mesh a frame reads, and what it may miss: see `Particle_detection` and
 /// `Exact_detection`. What is said of mode `exact` holds for mode `certified` too, unless it says otherwise. Every
-/// query asks for the current vertex positions, so results are never stale: see also `hold_positions`. In modes with
-/// particles call `update` before `detect`: it notices regions that have grown. One thread at a time may use a detector.
+/// query asks for the current vertex positions, so results are never stale: see also `hold_positions`. In mode
+/// `particles` call `update` before `detect`: it notices regions that have grown. One thread at a time may use a
+/// detector.
 ///
 /// Functions of yours that a detector calls must not call it: visitors, point maps, strategies, promises. From there,
-/// every call that is not const throws Bad_argument, but for `ignore` and `hold_positions`. So do queries, `save`, and in mode `particles` `update`, in a thread that flushes denormal numbers to
-/// zero, or rounds other than to nearest.
+/// every call that is not const throws Bad_argument, but for `ignore` and `hold_positions`. So do queries, `save`, and
+/// in mode `particles` `update`, in a thread that flushes denormal numbers to zero, or rounds other than to nearest.
 ///
 /// A call that runs out of memory throws std::bad_alloc, and nothing leaks. Repeat it, or go on without it: the next
 /// `detect` is right. A `rebuild` may or may not have taken effect.
@@ -52,8 +53,8 @@ namespace lodestone {
 template <class Strategy = Lbg, Bounding_volume Volume = Aabb>
 class Detector {
   static_assert(requires(const Strategy& s) { { s.name } -> std::convertible_to<std::string_view>; },
-                "the first template argument of Detector is the partition strategy, which needs a `name`; it is not the type of "
-                "the meshes");
+                "the first template argument of Detector is the partition strategy, which needs a `name`; it is not the "
+                "type of the meshes");
 
  public:
   /// A detector without objects.

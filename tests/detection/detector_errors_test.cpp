@@ -9,6 +9,7 @@
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "detection/detector_scenes.h"
 #include "lodestone/bounds/box_promise.h"
@@ -237,14 +238,13 @@ TEST(Detector, is_not_called_by_functions_that_it_calls) {
     detector.add(b, Calling_points{&b, &call});
     const std::vector<Face_pair> before = detector.detect().face_pairs;
     EXPECT_FALSE(before.empty());
-    for (const std::function<void()>& inner :
-         {std::function<void()>([&] { detector.detect(); }), std::function<void()>([&] { detector.update(0); }),
-          std::function<void()>([&] { detector.add(a); }),
-          std::function<void()>([&] { detector.remove(0); }), std::function<void()>([&] { detector.save(0); }),
-          std::function<void()>([&] { detector.rebuild(0); }),
-          std::function<void()>([&] { detector.place(0, Eigen::Isometry3d::Identity()); })}) {
+    const std::vector<std::function<void()>> calls{
+        [&] { detector.detect(); },  [&] { detector.update(0); }, [&] { detector.add(a); },
+        [&] { detector.remove(0); }, [&] { detector.save(0); },   [&] { detector.rebuild(0); },
+        [&] { detector.place(0, Eigen::Isometry3d::Identity()); }};
+    for (const auto& inner : calls) {
       call = inner;
-      // Particles read single vertices, in which the calling one need not be; a save reads all of an object.
+      // Particles read single vertices, in which the calling one need not be; an object that is built is read whole.
       detector.rebuild(1);
       EXPECT_THROW(detector.detect(), Bad_argument) << name_of(mode);
       call = [] {};
@@ -279,7 +279,8 @@ TEST(Detector, points_of_a_surface_mesh_with_fewer_vertices_are_refused) {
     Detector<> detector({.mode = mode});
     detector.add(a, small.points());
     detector.add(b);
-    EXPECT_NE(message_of<Bad_mesh>([&] { detector.detect(); }).find("fewer points"), std::string::npos) << name_of(mode);
+    EXPECT_NE(message_of<Bad_mesh>([&] { detector.detect(); }).find("fewer points"), std::string::npos)
+        << name_of(mode);
   }
   EXPECT_THROW(find_first_impact(a, small.points(), b, b.points()), Bad_mesh);
   EXPECT_THROW(find_first_impact(a, a.points(), b, small.points()), Bad_mesh);

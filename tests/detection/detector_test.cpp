@@ -144,9 +144,10 @@ TEST(Detector, a_frame_tells_how_many_vertices_it_has_read_and_how_many_candidat
         reads = 0;
         const Frame& result = detector.detect();
         EXPECT_EQ(result.statistics.vertices_read, reads) << name_of(mode) << ' ' << distance;
-        std::size_t candidates = 0;
-        for (const auto& pair : result.pairs) candidates += pair.candidates;
+        std::size_t candidates = 0, leaf_tests = 0;
+        for (const auto& pair : result.pairs) candidates += pair.candidates, leaf_tests += pair.leaf_tests;
         EXPECT_EQ(result.statistics.candidates, candidates) << name_of(mode) << ' ' << distance;
+        EXPECT_EQ(result.statistics.leaf_tests, leaf_tests) << name_of(mode) << ' ' << distance;
       }
     }
   }

@@ -116,8 +116,9 @@ void expect_same_frame(const Frame& a, const Frame& b) {
   expect_same_normals(a.contact_normals, b.contact_normals);
   ASSERT_EQ(a.pairs.size(), b.pairs.size());
   const auto fields = [](const Pair_result& pair) {
-    return std::make_tuple(pair.a, pair.b, pair.collides, pair.near, pair.candidates, pair.first_contact, pair.contacts,
-                           pair.capped, pair.unfinished, pair.containment, pair.first_patch, pair.patches);
+    return std::make_tuple(pair.a, pair.b, pair.collides, pair.near, pair.candidates, pair.leaf_tests,
+                           pair.first_contact, pair.contacts, pair.capped, pair.unfinished, pair.containment,
+                           pair.first_patch, pair.patches);
   };
   for (std::size_t i = 0; i < a.pairs.size(); ++i) {
     EXPECT_EQ(fields(a.pairs[i]), fields(b.pairs[i])) << i;

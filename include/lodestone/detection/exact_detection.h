@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "lodestone/detection/busy.h"
 #include "lodestone/detection/broad_phase.h"
+#include "lodestone/detection/busy.h"
 #include "lodestone/detection/detection.h"
 #include "lodestone/detection/exact_objects.h"
 #include "lodestone/detection/exact_pairs.h"

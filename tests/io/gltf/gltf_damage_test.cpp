@@ -210,7 +210,7 @@ TEST_F(Gltf_damage, matrices_that_are_not_affine_are_refused) {
   }
   auto bound = rich_gltf();
   bound.json["skins"][0]["inverseBindMatrices"] =
-      bound.add_floats("MAT4", 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,  //
+      bound.add_floats("MAT4", 16, {1, 0, 0, 0,   0, 1, 0, 0, 0, 0, 1, 0, 0,  0, 0, 1,  //
                                     1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1});
   expect_error(bound.gltf(), "/skins/0: joint 1: the last row of the matrix is not 0, 0, 0, 1");
   auto rounded = square_gltf();
