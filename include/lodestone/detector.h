@@ -40,8 +40,10 @@ namespace lodestone {
 /// detector.
 ///
 /// Functions of yours that a detector calls must not call it: visitors, point maps, strategies, promises. From there,
-/// every call that is not const throws Bad_argument, but for `ignore` and `hold_positions`. So do queries, `save`, and
-/// in mode `particles` `update`, in a thread that flushes denormal numbers to zero, or rounds other than to nearest.
+/// every call that is not const throws Bad_argument, but for `ignore` and `hold_positions`.
+///
+/// Queries, `save`, and in mode `particles` `update`, throw Bad_argument in a thread that flushes subnormal numbers to
+/// zero, or rounds other than to nearest.
 ///
 /// A call that runs out of memory throws std::bad_alloc, and nothing leaks. Repeat it, or go on without it: the next
 /// `detect` is right. A `rebuild` may or may not have taken effect.

@@ -98,9 +98,8 @@ struct Detector_options {
   bool contact_points = false;                                              ///< where faces meet; not with yes_no
   bool contact_normals = false;                                             ///< which way, how deep; not with yes_no
   bool list_candidates = false;  ///< also `Frame::candidates`; in mode `exact` there are none
-  std::size_t most_contacts =
-      std::numeric_limits<std::size_t>::max();  ///< listed per object pair; >= 1. In mode `exact`
-                                                ///< a search ends there; particles find all
+  /// Contacts that are listed per object pair; >= 1. In mode `exact` a search ends there; particles find all first.
+  std::size_t most_contacts = std::numeric_limits<std::size_t>::max();
   /// Of particles: vertices on open borders that lie on each other when the object is built count as one for the
   /// partition, and particles walk across them: see Closed_seams. Faces keep their corners.
   bool close_seams = true;
