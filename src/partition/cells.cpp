@@ -39,6 +39,7 @@ bool reseed_empty_cells(const Feature_vectors& vectors, Feature_vectors& codes, 
     assignment.labels[farthest] = static_cast<Region_index>(empty);
     assignment.squared_distances[farthest] = 0;
     distortions[donor] -= distance;
+    sizes[empty] = 1;
     if (--sizes[donor] == 1) distortions[donor] = 0;
   }
   return true;

@@ -153,6 +153,15 @@ TEST(Quantise, a_cell_that_becomes_empty_is_re_seeded) {
   EXPECT_NE(halves.labels[0], halves.labels[2]);
 }
 
+TEST(Quantise, a_cell_that_is_re_seeded_in_the_last_iteration_stays) {
+  const Feature_vectors vectors = (Feature_vectors(4, 1) << -3, -2, 2, 3).finished();
+  for (const std::size_t cells : {2, 3, 4}) {
+    const auto result = quantise(vectors, cells, {.split_rule = Split::multiplicative, .max_iterations = 1});
+    EXPECT_EQ(static_cast<std::size_t>(result.code_vectors.rows()), cells);
+    expect_means_of_full_cells(vectors, result);
+  }
+}
+
 TEST(Quantise, equal_vectors_are_one_cell) {
   const Feature_vectors vectors = Feature_vectors::Constant(50, 6, 2.5);
   for (const auto split : splits) EXPECT_EQ(quantise(vectors, 8, {.split_rule = split}).code_vectors.rows(), 1);
