@@ -99,35 +99,7 @@ py::list pose_arrays(const Python_animation& self, const py::slice& frames) {
   return poses;
 }
 
-}  // namespace
-
-std::optional<std::size_t> Python_animation::frame_of(py::ssize_t number) const {
-  const auto frame = number < 0 ? number + static_cast<py::ssize_t>(frames) : number;
-  if (frame < 0 || static_cast<std::size_t>(frame) >= frames) return std::nullopt;
-  return static_cast<std::size_t>(frame);
-}
-
-std::string Python_animation::no_frame(py::ssize_t number) const {
-  return "there is no frame " + std::to_string(number) + ": there are " + std::to_string(frames);
-}
-
-std::vector<double> Python_animation::pose(std::size_t frame) const {
-  std::vector<Point> points(animation->vertices);
-  animation->motion.pose(frame, points);
-  std::vector<double> coordinates;
-  coordinates.reserve(3 * points.size());
-  for (const auto& p : points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
-  return coordinates;
-}
-
-std::vector<double> Python_skin::pose() const {
-  const std::lock_guard lock(mutex_);
-  std::vector<double> coordinates(3 * std::size_t{points_.vertex_count()});
-  points_.pose_all(coordinates);
-  return coordinates;
-}
-
-void add_motions(py::module_& module) {
+void add_animation(py::module_& module) {
   py::class_<Python_animation, std::shared_ptr<Python_animation>>(
       module, "Animation",
       "Triangles whose vertices move, as read from files. `animation[t]` has the positions of frame t, and iteration "
@@ -170,7 +142,9 @@ void add_motions(py::module_& module) {
                        " vertices, " + std::to_string(self.animation->faces.size()) + " faces, " +
                        std::to_string(self.frames) + " frames>");
       });
+}
 
+void add_skin(py::module_& module) {
   py::class_<Python_skin, std::shared_ptr<Python_skin>>(
       module, "Skin",
       "Vertices that joints move: linear blend skinning, after morph targets as in glTF. In mode `certified` a detector\n"
@@ -198,6 +172,39 @@ void add_motions(py::module_& module) {
              return positions_array(posed);
            },
            "All positions in the current pose: (V, 3) float64.");
+}
+
+}  // namespace
+
+std::optional<std::size_t> Python_animation::frame_of(py::ssize_t number) const {
+  const auto frame = number < 0 ? number + static_cast<py::ssize_t>(frames) : number;
+  if (frame < 0 || static_cast<std::size_t>(frame) >= frames) return std::nullopt;
+  return static_cast<std::size_t>(frame);
+}
+
+std::string Python_animation::no_frame(py::ssize_t number) const {
+  return "there is no frame " + std::to_string(number) + ": there are " + std::to_string(frames);
+}
+
+std::vector<double> Python_animation::pose(std::size_t frame) const {
+  std::vector<Point> points(animation->vertices);
+  animation->motion.pose(frame, points);
+  std::vector<double> coordinates;
+  coordinates.reserve(3 * points.size());
+  for (const auto& p : points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
+  return coordinates;
+}
+
+std::vector<double> Python_skin::pose() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<double> coordinates(3 * std::size_t{points_.vertex_count()});
+  points_.pose_all(coordinates);
+  return coordinates;
+}
+
+void add_motions(py::module_& module) {
+  add_animation(module);
+  add_skin(module);
 }
 
 }  // namespace lodestone::python
