@@ -126,6 +126,20 @@ TEST(Object_hits, are_in_exact_order_where_t_is_not) {
   }
 }
 
+TEST(Object_hits, at_the_same_place_are_of_the_lowest_object_whichever_is_asked_first) {
+  // Of two objects the one whose middle is lower is asked first.
+  for (const auto& [size, other_size] : {std::pair{3.0, 1.0}, {1.0, 3.0}}) {
+    Scene_of_rays scene;
+    scene.add(tile(2, size));
+    scene.add(tile(2, other_size));
+    Exact_detector detector;
+    scene.add_to(detector);
+    const Ray ray{.direction = {1, 0, 0}};
+    EXPECT_EQ(scene.expect_first_of_whole(detector, {&ray, 1}), 1U);
+    EXPECT_EQ(detector.first_hit(ray)->object, 0U);
+  }
+}
+
 TEST(Object_hits, follow_the_objects) {
   Surface_mesh near = tile(1, 1), far = tile(2, 1);
   Exact_detector detector;

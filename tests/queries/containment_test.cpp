@@ -2,6 +2,7 @@
 #include "lodestone/queries/containment.h"
 
 #include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 #include <gtest/gtest.h>
 
 #include "lodestone/mesh/errors.h"
@@ -191,12 +192,18 @@ bool encloses_bounded(Bounded_surface& outer, Bounded_surface& inner, const Arm&
   return truth;
 }
 
-TEST(Containment, of_bounded_surfaces_equals_that_of_fitted_ones) {
-  Surface_mesh small = long_potato(4, 2);
-  for (const auto v : small.vertices()) {
-    const Point& p = small.point(v);
-    small.point(v) = Point(0.05 * p.x() - 1.5, 0.1 * p.y(), 0.1 * p.z());
+/// A small potato in one end of a long one, at a distance from where it is inside.
+Surface_mesh pit(double away = 0) {
+  Surface_mesh mesh = long_potato(4, 2);
+  for (const auto v : mesh.vertices()) {
+    const Point& p = mesh.point(v);
+    mesh.point(v) = Point(0.05 * p.x() - 1.5, 0.1 * p.y() + away, 0.1 * p.z());
   }
+  return mesh;
+}
+
+TEST(Containment, of_bounded_surfaces_equals_that_of_fitted_ones) {
+  const Surface_mesh small = pit();
   Arm outer(long_potato(8, 1), true), inner(small, false), open(cloth(5, 5), false);
   int inside = 0;
   const auto ask = [](Arm& a, Arm& b) { return encloses_bounded(a.surface, b.surface, a, b); };
@@ -211,6 +218,24 @@ TEST(Containment, of_bounded_surfaces_equals_that_of_fitted_ones) {
   }
   EXPECT_GT(inside, 5);
   EXPECT_LT(inside, 25);
+}
+
+TEST(Containment, of_bounded_surfaces_needs_a_closed_one_around_every_component) {
+  Surface_mesh last_outside = pit(), first_outside = pit(3), pierced = long_potato(8, 1);
+  last_outside += pit(3);
+  first_outside += pit();
+  CGAL::Euler::remove_face(halfedge(*std::prev(faces(pierced).end()), pierced), pierced);
+  pierced.collect_garbage();
+  Arm outer(long_potato(8, 1), true), inner(pit(), false), last(last_outside, false), first(first_outside, false),
+      open(pierced, true);
+  const auto ask = [](Arm& a, Arm& b) { return encloses_bounded(a.surface, b.surface, a, b); };
+  for (const double angle : {0.0, 0.1, 0.2}) {
+    for (Arm* const arm : {&outer, &inner, &last, &first, &open}) arm->pose(angle, {0, 0, 0});
+    EXPECT_TRUE(ask(outer, inner));
+    EXPECT_FALSE(ask(outer, last));
+    EXPECT_FALSE(ask(outer, first));
+    EXPECT_FALSE(ask(open, inner));
+  }
 }
 
 TEST(Containment, in_surfaces_far_away_poses_nothing) {
