@@ -58,16 +58,16 @@ void Particle_detection::name_the_bad_object() {
 }
 
 void Particle_detection::find_near_objects(const Collision_filter& filter) {
-  find_regions();
+  find_objects();
   list_object_pairs(filter);
-  tighten_boxes();
+  find_near_regions();
   met_pairs_.clear();
   for (const auto pair : object_candidates_)
     met_pairs_.push_back(
         {.ids = pair, .a = &objects_[pair.a]->particle_object, .b = &objects_[pair.b]->particle_object});
 }
 
-void Particle_detection::find_regions() {
+void Particle_detection::find_objects() {
   ids_.clear();
   for (Object_id o = 0; o < objects_.size(); ++o) {
     if (!objects_[o]) continue;
@@ -75,13 +75,13 @@ void Particle_detection::find_regions() {
     reach_[o] = 0;
   }
   try {
-    read_regions();
+    read_objects();
   } catch (const Bad_mesh&) {
     // Of several objects that are broken the first is named.
     for (const Object_id o : ids_)
       objects_[o]->named([&] {
         objects_[o]->particle_object.start_frame();
-        objects_[o]->particle_object.read_regions(options_.opening_reach);
+        objects_[o]->particle_object.find(options_.opening_reach);
       });
     throw;
   }
@@ -103,23 +103,21 @@ void Particle_detection::read_each(const Read& read) {
   for (const Object_id o : ids_) read_if(o, false);
 }
 
-/// Reads where the regions of all objects are.
-void Particle_detection::read_regions() {
+/// Reads where all objects are.
+void Particle_detection::read_objects() {
   for (const Object_id o : ids_) objects_[o]->named([&] { objects_[o]->particle_object.start_frame(); });
   read_each([this](Object_id o) {
     auto& object = objects_[o]->particle_object;
-    object.read_regions(options_.opening_reach);
+    object.find(options_.opening_reach);
     boxes_[o] = object.region_anchors().box();
   });
 }
 
-/// Fits the boxes of small objects that seem near others, and drops the pairs whose boxes are apart.
-void Particle_detection::tighten_boxes() {
+/// Those of small objects are read only where another object is near.
+void Particle_detection::find_near_regions() {
   read_each([this](Object_id o) {
-    auto& object = objects_[o]->particle_object;
-    if (!opponents_[o].empty() && object.fit_regions_if_small()) boxes_[o] = object.region_anchors().box();
+    if (!opponents_[o].empty()) objects_[o]->particle_object.find_regions(options_.opening_reach);
   });
-  std::erase_if(object_candidates_, [this](Object_pair pair) { return !boxes_[pair.a].intersects(boxes_[pair.b]); });
 }
 
 /// Where the budget has ended the openings, lets the particles walk whose regions may touch one of the other object;

@@ -10,9 +10,7 @@ namespace lodestone {
 
 namespace {
 
-/// Vertices of a surface that is small: to read them takes less time than a pair of objects that boxes around anchors
-/// would let pass. Its anchors are nearly all of its vertices, and their radii nearly as long as it is wide.
-constexpr std::size_t most_of_small = 256;
+bool is_small(const Tree_on_demand& tree) { return tree.vertex_count() <= 256; }
 
 }  // namespace
 
@@ -152,13 +150,19 @@ void Region_anchors::read(Tree_on_demand& tree, double reach) {
   }
 }
 
-bool Region_anchors::fit_if_small(Tree_on_demand& tree) {
-  if (tree.vertex_count() > most_of_small) return false;
+void Region_anchors::find(Tree_on_demand& tree, double reach) {
+  if (!is_small(tree)) return read(tree, reach);
   tree.pose_below(0);
   const Aabb& all = tree.box(0);
   box_ =
       Box(Eigen::Vector3d(all.low[0], all.low[1], all.low[2]), Eigen::Vector3d(all.high[0], all.high[1], all.high[2]));
-  return true;
+}
+
+void Region_anchors::find_regions(Tree_on_demand& tree, double reach) {
+  if (!is_small(tree)) return;
+  const Box fitted = box_;
+  read(tree, reach);
+  box_ = fitted;
 }
 
 bool Region_anchors::may_touch(std::uint32_t index, const Box& box) const {

@@ -33,7 +33,12 @@ class Anchored_object {
     tree_.start_frame(Live_positions(now_.coordinates.data()));
     regions_.read(tree_, reach);
   }
-  bool fit_if_small() { return regions_.fit_if_small(tree_); }
+  void find(const Face_soup& now, double reach = 1) {
+    now_ = now;
+    tree_.start_frame(Live_positions(now_.coordinates.data()));
+    regions_.find(tree_, reach);
+  }
+  void find_regions() { regions_.find_regions(tree_, 1); }
   const Face_soup& rest() const { return rest_; }
   const Face_soup& now() const { return now_; }
   const Region_anchors& regions() const { return regions_; }
@@ -171,16 +176,41 @@ TEST(Region_anchors, the_box_of_a_small_surface_is_that_of_its_vertices) {
     SCOPED_TRACE(name);
     Anchored_object object(soup);
     for (int pose = 0; pose < 3; ++pose) {
-      object.move_to(posed_at_random(soup, 5, random), 2);
-      EXPECT_TRUE(object.fit_if_small());
+      object.find(posed_at_random(soup, 5, random), 2);
       Box expected;
       for (const auto& face : object.now().faces)
         for (const auto v : face)
           expected.extend(Eigen::Vector3d::Map(object.now().coordinates.data() + 3 * std::size_t{v}));
       EXPECT_EQ(object.regions().box().min(), expected.min());
       EXPECT_EQ(object.regions().box().max(), expected.max());
+      object.find_regions();
+      EXPECT_EQ(object.regions().box().min(), expected.min());
+      EXPECT_EQ(object.regions().box().max(), expected.max());
     }
   }
+}
+
+TEST(Region_anchors, regions_that_are_found_are_those_that_are_read) {
+  std::mt19937_64 random(8);
+  const auto objects = small_objects();
+  std::size_t listed = 0, small = 0;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    SCOPED_TRACE(objects[i].first);
+    Anchored_object a(objects[i].second), b(objects[(i + 2) % objects.size()].second);
+    const auto a_now = posed_at_random(a.rest(), 0.8, random), b_now = posed_at_random(b.rest(), 0.8, random);
+    a.move_to(a_now), b.move_to(b_now);
+    const auto read = listed_pairs(a, b);
+    a.find(a_now), b.find(b_now);
+    a.find_regions(), b.find_regions();
+    const auto found = listed_pairs(a, b);
+    EXPECT_TRUE(std::ranges::includes(read, found));
+    for (const auto& [face_a, face_b] : true_pairs(a.now(), b.now()))
+      EXPECT_TRUE(found.contains({a.region_of(face_a), b.region_of(face_b)}));
+    listed += found.size();
+    small += a.rest().vertex_count() <= 256 ? 1 : 0;
+  }
+  EXPECT_GT(listed, 20U);
+  EXPECT_GT(small, 0U);
 }
 
 TEST(Region_anchors, a_smaller_reach_lists_fewer_regions_and_no_others) {

@@ -137,9 +137,9 @@ class Particle_detection final : public Detection {
   // With meetings.
   void detect_by_meetings(const Collision_filter& filter);
   void find_near_objects(const Collision_filter& filter);
-  void find_regions();
-  void read_regions();
-  void tighten_boxes();
+  void find_objects();
+  void read_objects();
+  void find_near_regions();
   template <class Read>
   void read_each(const Read& read);
   void search_near_objects();

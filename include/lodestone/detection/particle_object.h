@@ -93,12 +93,12 @@ class Particle_object {
   /// Starts a frame: looks where the positions are, but reads none of them. After `prepare_meetings`.
   /// @throws Bad_mesh  the number of vertices or faces has changed
   void start_frame();
-  /// Reads the anchors of the regions in this frame, after `start_frame`.
+  /// Reads where the object is in this frame, after `start_frame`, and its regions if it is large. See Region_anchors.
   /// @throws Bad_mesh  a coordinate is not finite
-  void read_regions(double reach) { region_anchors_.read(tree_, reach); }
-  /// See Region_anchors.
-  bool fit_regions_if_small() { return region_anchors_.fit_if_small(tree_); }
-  /// Where the regions are, as of the last `read_regions`.
+  void find(double reach) { region_anchors_.find(tree_, reach); }
+  /// Reads the regions also if it is small, after `find`.
+  void find_regions(double reach) { region_anchors_.find_regions(tree_, reach); }
+  /// Where the regions are, as of the last `find` and `find_regions`.
   const Region_anchors& region_anchors() const { return region_anchors_; }
   /// The surface, for particles that may walk anywhere, after `prepare_meetings`.
   Walked_surface walked_surface() const { return {&edges_.graph, &vertex_faces_, walked_corners(), corners(), &read_}; }

@@ -43,11 +43,12 @@ class Region_anchors {
   /// @param reach      a region is taken to lie within so many times its radius of its anchor
   /// @throws Bad_mesh  a coordinate is not finite
   void read(Tree_on_demand& tree, double reach);
-  /// Fits the box of a surface of at most 256 vertices to all of them: their radii make the one around anchors several
-  /// times too wide. Reads the surface as a whole.
-  /// @return whether the surface is so small
+  /// Reads where the surface is. If it is small, at most 256 vertices, all of it is read, which takes no longer than to
+  /// read the anchors, whose radii would make the box several times too wide. Otherwise the same as `read`.
   /// @throws Bad_mesh  a coordinate is not finite
-  bool fit_if_small(Tree_on_demand& tree);
+  void find(Tree_on_demand& tree, double reach);
+  /// Reads the anchors of a small surface as well, after `find`.
+  void find_regions(Tree_on_demand& tree, double reach);
 
   /// Number of regions that are listed.
   std::size_t size() const { return nodes_.size(); }
@@ -55,7 +56,7 @@ class Region_anchors {
   std::uint32_t node(std::uint32_t index) const { return nodes_[index]; }
   /// The region at an index of the list.
   Region_index region(std::uint32_t index) const { return regions_[index]; }
-  /// Encloses the surface, as far as the anchors tell.
+  /// Encloses the surface: after `find` a small one closely, otherwise as far as the anchors tell.
   const Box& box() const { return box_; }
 
   /// Appends the pairs of regions of two objects that may touch. O(n m) for those that may touch the other's box.
