@@ -156,9 +156,13 @@ void write_animation_file(const Path& path, const py::object& frames, const py::
                           std::optional<double> frames_per_second) {
   // Those of an Animation, unless the caller gives others.
   const py::object given = faces.is_none() ? py::getattr(frames, "faces", py::none()) : faces;
-  const double known =
-      py::isinstance<Python_animation>(frames) ? frames.cast<const Python_animation&>().animation->frames_per_second : 0;
-  write(path, frames, given, {.frames_per_second = frames_per_second.value_or(known > 0 ? known : 30)});
+  if (!py::isinstance<Python_animation>(frames))
+    return write(path, frames, given, {.frames_per_second = frames_per_second.value_or(usual_rate)});
+  const Animation& read = *frames.cast<const Python_animation&>().animation;
+  const double rate = frames_per_second.value_or(read.frames_per_second > 0 ? read.frames_per_second : usual_rate);
+  const bool is_positive = rate > 0 && std::isfinite(rate);  // others are refused there
+  write(path, frames, given,
+        {.frames_per_second = rate, .start = is_positive ? start_at(read.motion, rate) : 0});
 }
 
 void write_mesh_file(const Path& path, const py::object& mesh, const py::object& faces) {

@@ -24,6 +24,7 @@
 #include "program/mesh_beside.h"
 #include "program/notes.h"
 #include "program/progress.h"
+#include "program/standard_input.h"
 
 namespace lodestone {
 
@@ -99,7 +100,8 @@ void check_rate(const Animation& animation, const Convert_command& command) {
   const bool is_written = is_gltf(command.output) || lower_case(command.output.extension().string()) == ".mdd";
   if (command.rate > 0 && animation.kind != "gltf" && !is_written)
     throw Bad_argument(
-        fmt::format("{}: --fps needs glTF to read, or .gltf, .glb or .mdd, the formats that are written with times",
+        fmt::format("{}: --fps needs a glTF file to read, or .gltf, .glb or .mdd, the formats that are written with "
+                    "times; the frames of a scene's object are those that the scene chooses",
                     command.output.string()));
 }
 
@@ -115,7 +117,9 @@ Animation_output_options output_options(const Animation& animation, const Conver
   const auto choice = parse_frames(command.frames, animation.motion.frames);
   Animation_output_options options{.frames = list_of(choice)};
   const double own_rate = animation.frames_per_second > 0 ? animation.frames_per_second : usual_rate;
-  options.frames_per_second = (command.rate > 0 ? command.rate : own_rate) / static_cast<double>(choice.step);
+  const double rate = command.rate > 0 ? command.rate : own_rate;
+  options.frames_per_second = rate / static_cast<double>(choice.step);
+  options.start = choice.first == 0 ? start_at(animation.motion, rate) : 0;
   if (command.regions > 0) options.regions = regions_of(animation, choice.first, command.regions);
   return options;
 }
@@ -143,8 +147,9 @@ void note_faces_not_kept(const Convert_command& command, const Animation& animat
   constexpr std::array<std::string_view, 4> beside_a_mesh{"mesh", "sequence", "pc2", "mdd"};
   const bool are_elsewhere = !are_edited && std::ranges::find(beside_a_mesh, animation.kind) != beside_a_mesh.end();
   if (!is_point_cache(command.output) || animation.faces.empty() || are_elsewhere) return;
-  note(fmt::format("{}: faces are not kept: a point cache has none; convert to a mesh file, too, with --frames 0",
-                   command.output.string()));
+  note(fmt::format(
+      "{}: faces are not kept: a point cache has none; convert to a mesh file, such as .obj, too, with --frames 0",
+      command.output.string()));
 }
 
 /// Files of an earlier, longer run would be read with those of this one.
@@ -162,7 +167,7 @@ void note_other_files(const Convert_command& command, std::size_t frames) {
 
 void report(const Convert_command& command, const Animation& original, const Animation& animation, std::size_t frames,
             const Float_rounding& rounding) {
-  const auto name = command.input.filename().string();
+  const auto name = shown_name(command.input);
   note(other_animations_note(name, original.motion.animations));
   note(ignored_extensions_note(name, original.ignored_extensions));
   note(cut_faces_note(name, original.file_face));

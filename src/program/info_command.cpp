@@ -24,6 +24,7 @@
 #include "program/frame_log.h"
 #include "program/mesh_beside.h"
 #include "program/progress.h"
+#include "program/standard_input.h"
 
 namespace lodestone {
 
@@ -157,7 +158,7 @@ Info look_at(const Info_command& command) {
   return {.kind = animation.kind,
           .frames_per_second = animation.frames_per_second,
           .frames = animation.motion.frames,
-          .objects = {report_of(command.file.filename().string(), animation)}};
+          .objects = {report_of(shown_name(command.file), animation)}};
 }
 
 using Kind_count = std::pair<std::size_t, std::optional<Component_orientation>>;
@@ -302,7 +303,7 @@ int run(const Info_command& command) {
   const Info info = look_at(command);
   check_interrupt();
   if (command.json) {
-    Json json{{"file", command.file.filename().string()}, {"kind", info.kind}, {"frames", info.frames}};
+    Json json{{"file", shown_name(command.file)}, {"kind", info.kind}, {"frames", info.frames}};
     if (info.frames_per_second > 0) json["frames_per_second"] = info.frames_per_second;
     json["objects"] = Json::array();
     for (const auto& object : info.objects) json["objects"].push_back(to_json(object));
@@ -310,7 +311,7 @@ int run(const Info_command& command) {
     return exit_code::success;
   }
   if (info.kind == "scene")
-    fmt::print("{}: {}, {}\n\n", printable(command.file.filename().string()), counted(info.objects.size(), "object"),
+    fmt::print("{}: {}, {}\n\n", printable(shown_name(command.file)), counted(info.objects.size(), "object"),
                counted(info.frames, "frame"));
   for (std::size_t i = 0; i < info.objects.size(); ++i) {
     if (i > 0) fmt::print("\n");

@@ -25,6 +25,7 @@
 #include "program/notes.h"
 #include "program/page_file.h"
 #include "program/progress.h"
+#include "program/standard_input.h"
 
 namespace lodestone {
 
@@ -68,7 +69,7 @@ Json statistics(const Mesh_file& file, const Divided& divided, const Partition_c
   const auto& statistics = divided.partition.statistics;
   Json particles = Json::array();
   for (const auto v : divided.partition.particles) particles.push_back(file.file_vertex[v]);
-  return {{"mesh", command.mesh.filename().string()},
+  return {{"mesh", shown_name(command.mesh)},
           {"strategy", command.strategy.name},
           {"seed", command.strategy.settings.seed},
           {"vertices", file.mesh.number_of_vertices()},
@@ -96,7 +97,7 @@ Page page_of(const Mesh_file& file, const Divided& divided, const Partition_comm
   numbers.erase("seconds");  // so that equal partitions give equal pages
   numbers.erase("labels");   // the page has them
   Page page(
-      {.kind = Page_kind::partition, .title = command.mesh.filename().string(), .strategy = command.strategy.name});
+      {.kind = Page_kind::partition, .title = shown_name(command.mesh), .strategy = command.strategy.name});
   page.set_regions(
       page.add_object(command.mesh.stem().string(), numbering.vertex_count(), {corners.begin(), corners.end()}),
       divided.labels);
@@ -110,7 +111,7 @@ Page page_of(const Mesh_file& file, const Divided& divided, const Partition_comm
 void print_table(const Mesh_file& file, const Divided& divided, const Partition_command& command) {
   const auto& statistics = divided.partition.statistics;
   const auto [smallest, largest] = std::ranges::minmax(divided.sizes);
-  Text_table table({printable(command.mesh.filename().string()), command.strategy.name});
+  Text_table table({printable(shown_name(command.mesh)), command.strategy.name});
   table.add({"vertices", std::to_string(file.mesh.number_of_vertices())});
   table.add({"faces", std::to_string(count_file_faces(file.file_face).count)});
   table.add({"regions", std::to_string(divided.partition.regions)});
@@ -187,7 +188,7 @@ int run(const Partition_command& command) {
   if (json) json->commit();
   if (page) page->commit();
   if (!command.quiet) {
-    const auto name = command.mesh.filename().string();
+    const auto name = shown_name(command.mesh);
     note(ignored_extensions_note(name, file.ignored_extensions));
     note(cut_faces_note(name, file.file_face));
   }

@@ -99,6 +99,10 @@ std::string naming_standard_input(std::string message) {
   return message;
 }
 
+std::string shown_name(const std::filesystem::path& file) {
+  return file.string() == kept_path() ? "standard input" : file.filename().string();
+}
+
 void replace_standard_input(std::vector<std::filesystem::path*> inputs, const std::string& format,
                             std::optional<Standard_input>& kept) {
   std::erase_if(inputs, [](const auto* input) { return *input != "-"; });

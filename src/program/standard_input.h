@@ -49,6 +49,9 @@ class Standard_input {
 /// in.
 std::string naming_standard_input(std::string message);
 
+/// The name of a file without its folders, or `standard input` for the file that it was kept in.
+std::string shown_name(const std::filesystem::path& file);
+
 /// Replaces an input that is `-` by the standard input.
 /// @param format  of the standard input; empty: not given
 /// @param kept    receives the standard input, which must live as long as it is read

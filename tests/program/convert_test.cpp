@@ -8,6 +8,7 @@
 
 #include "lodestone/io/motion/animation.h"
 #include "lodestone/io/motion/point_cache.h"
+#include "lodestone/io/results/animation_output.h"
 #include "program/run_program.h"
 #include "support/gltf_samples.h"
 #include "support/mesh_samples.h"
@@ -82,6 +83,27 @@ TEST_F(Convert, keeps_the_duration) {
   EXPECT_NEAR(read_point_cache_header(path("b.mdd")).frames_per_second, 30, 1e-3);
 }
 
+TEST_F(Convert, keeps_when_the_first_frame_is) {
+  write_animation(path("late.mdd"), read_animation(path("f*.off")), {.frames_per_second = 24, .start = 0.25});
+  const auto start = [&](const std::string& name, const std::vector<std::string>& options) {
+    convert("late.mdd", name, options);
+    return read_animation(path(name)).motion.start;
+  };
+  EXPECT_NEAR(start("a.mdd", {}), 0.25, 1e-6);
+  EXPECT_NEAR(start("a.glb", {"--mesh", path("square.off")}), 0.25, 1e-6);
+  EXPECT_NEAR(start("b.mdd", {"--scale", "2", "--frames", "::2"}), 0.25, 1e-6);
+  EXPECT_NEAR(start("c.mdd", {"--fps", "48"}), 0.125, 1e-6);
+  EXPECT_EQ(start("d.mdd", {"--frames", "1:"}), 0);
+  EXPECT_EQ(heights("a.glb"), all);
+}
+
+TEST_F(Convert, keeps_the_rate_of_an_object_of_a_scene) {
+  convert("f*.off", "a.mdd", {"--fps", "24"});
+  folder.write("scene.json", R"({"objects": [{"name": "sheet", "mesh": "square.off", "motion": {"mdd": "a.mdd"}}]})");
+  convert("scene.json#sheet", "b.mdd");
+  EXPECT_NEAR(read_point_cache_header(path("b.mdd")).frames_per_second, 24, 1e-3);
+}
+
 TEST_F(Convert, samples_gltf_at_any_rate) {
   folder.write("a.glb", rich_gltf().glb());
   convert("a.glb", "a.pc2");
@@ -106,8 +128,8 @@ TEST_F(Convert, says_how_to_get_the_faces_that_a_point_cache_does_not_keep) {
     const auto result = run_program({"convert", path("walk 2.glb"), path(name)});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.err, "lodestone: " + path(name) +
-                              ": faces are not kept: a point cache has none; convert to a mesh file, too, with "
-                              "--frames 0\n");
+                              ": faces are not kept: a point cache has none; convert to a mesh file, such as "
+                              ".obj, too, with --frames 0\n");
   }
   convert("walk 2.glb", "a.off", {"--frames", "0"});
   EXPECT_EQ(read_animation(path("a.off")).faces, read_animation(path("walk 2.glb")).faces);

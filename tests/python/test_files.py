@@ -5,6 +5,7 @@ import base64
 import json
 import os
 import re
+import struct
 import subprocess
 
 import numpy as np
@@ -231,6 +232,19 @@ def test_frames_of_a_scene_are_counted_from_the_end_too(scenes):
             faces_of(number)
     with pytest.raises(TypeError):
         faces_of(1.5)
+
+
+def test_an_animation_that_is_written_again_keeps_its_first_time(tmp_path):
+    times, positions = [0.25, 0.5, 0.75], np.zeros((3, 4, 3))
+    (tmp_path / "late.mdd").write_bytes(
+        struct.pack(">ii", 3, 4) + np.asarray(times, ">f4").tobytes() + positions.astype(">f4").tobytes()
+    )
+    late = lodestone.read_animation(tmp_path / "late.mdd")
+    for given, expected in (({}, times), ({"frames_per_second": 8}, [0.125, 0.25, 0.375])):
+        lodestone.write_animation(tmp_path / "copy.mdd", late, **given)
+        assert np.frombuffer((tmp_path / "copy.mdd").read_bytes()[8:20], ">f4") == pytest.approx(expected)
+    lodestone.write_animation(tmp_path / "some.mdd", late[1:3])
+    assert np.frombuffer((tmp_path / "some.mdd").read_bytes()[8:16], ">f4") == pytest.approx([0, 1 / 30])
 
 
 def test_an_animation_that_is_written_again_keeps_its_frame_rate(tmp_path):

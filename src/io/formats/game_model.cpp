@@ -14,6 +14,7 @@
 #include "io/files/file_bytes.h"
 #include "io/files/small_text.h"
 #include "io/formats/mesh_guard.h"
+#include "io/formats/mesh_soup.h"
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
@@ -120,7 +121,7 @@ void Model_reader::read_md3_surface(std::size_t at, std::size_t length) {
     file_.fail_at(at + 72, fmt::format("the surface has {} frames, the file {}", own_frames, frames));
   expect_room(at + 84, triangles_at, faces, md3_triangle, "triangles");
   expect_room(at + 80, vertices_at, vertices, md3_vertex, "vertices");
-  expect_room(at + 72, vertices_at, frames, std::max<std::size_t>(vertices, 1) * md3_vertex, "frames");
+  if (vertices > 0) expect_room(at + 72, vertices_at, frames, vertices * md3_vertex, "frames");
   // If surfaces could share bytes, a short file could describe more data than fits into memory.
   if (triangles_at + faces * md3_triangle > at + length || vertices_at + frames * vertices * md3_vertex > at + length)
     file_.fail_at(at + 104, fmt::format("the surface does not end within its {} bytes", length));
@@ -169,6 +170,7 @@ void weld(Game_model& model) {
   }
   for (auto& face : model.faces)
     for (auto& corner : face) corner = first_of[corner];
+  model.joined = if_any_joined(std::move(first_of));
 }
 
 Game_model Model_reader::read() {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lodestone/io/formats/joined_vertices.h"
 #include "lodestone/io/formats/mesh_file_options.h"
 #include "lodestone/mesh/mesh_numbering.h"
 
@@ -28,7 +29,8 @@ struct Game_model {
   std::size_t frames = 0;
   std::size_t vertices = 0;
   std::vector<Game_surface> surfaces = {};
-  std::vector<Corners> faces = {};  ///< vertices that coincide in every frame have one index
+  std::vector<Corners> faces = {};
+  Joined_vertices joined = {};  ///< those that coincide in every frame
 };
 
 /// Whether the file's extension is that of a game model.

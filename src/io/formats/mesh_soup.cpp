@@ -5,6 +5,12 @@
 
 namespace lodestone {
 
+Joined_vertices if_any_joined(Joined_vertices first_of) {
+  for (std::uint32_t vertex = 0; vertex < first_of.size(); ++vertex)
+    if (first_of[vertex] != vertex) return first_of;
+  return {};
+}
+
 std::vector<Corners> corners_of(const Mesh_soup& soup) {
   std::vector<Corners> corners;
   corners.reserve(soup.faces.size());

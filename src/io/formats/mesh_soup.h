@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lodestone/io/formats/file_part.h"
+#include "lodestone/io/formats/joined_vertices.h"
 #include "lodestone/mesh/mesh_numbering.h"
 
 namespace lodestone {
@@ -16,7 +17,8 @@ namespace lodestone {
 /// Points and faces in the order of the file: vertex and face indices are those of the file, from 0.
 struct Polygon_soup {
   std::vector<Point> points;
-  std::vector<std::vector<std::size_t>> faces;    ///< of three corners or more
+  std::vector<std::vector<std::size_t>> faces;  ///< of three corners or more
+  Joined_vertices joined = {};
   File_parts parts = {};                          ///< that the file names
   std::set<std::string> not_read = {};            ///< what else the file holds, such as `texture coordinates`
   std::set<std::string> ignored_extensions = {};  ///< optional ones of glTF that say where surfaces are
@@ -28,11 +30,15 @@ struct Mesh_soup {
   std::vector<Point> points;
   std::vector<std::vector<std::size_t>> faces;
   std::vector<std::uint32_t> file_face;  ///< per triangle: its face in the file; never decreases
+  Joined_vertices joined = {};
   File_parts parts = {};
   std::set<std::string> not_read = {};
   std::set<std::string> ignored_extensions = {};
   std::vector<std::filesystem::path> files = {};
 };
+
+/// The same list, or none if every vertex is its own first.
+Joined_vertices if_any_joined(Joined_vertices first_of);
 
 /// The faces of a soup in compact form.
 std::vector<Corners> corners_of(const Mesh_soup& soup);

@@ -203,6 +203,7 @@ void Shape_reader::weld() {
   for (std::uint32_t vertex = 0; vertex < count; ++vertex) first_of[vertex] = *seen.insert(vertex).first;
   for (auto& face : shape_.faces)
     for (auto& corner : face) corner = first_of[corner];
+  shape_.first_of = std::move(first_of);
 }
 
 Gltf_shape Shape_reader::read() {
@@ -410,8 +411,17 @@ bool is_mirrored(const Gltf_scene& scene, const Gltf_part& part) {
 
 }  // namespace
 
+Joined_vertices joined_vertices(const Gltf_scene& scene) {
+  Joined_vertices first_of;
+  for (const auto& part : scene.parts)
+    for (const auto first : part.shape->first_of)
+      first_of.push_back(static_cast<std::uint32_t>(part.first_vertex) + first);
+  return if_any_joined(std::move(first_of));
+}
+
 Polygon_soup soup_of(std::shared_ptr<const Gltf_scene> scene) {
   Polygon_soup soup;
+  soup.joined = joined_vertices(*scene);
   soup.not_read = scene->not_read;
   soup.ignored_extensions = scene->ignored_extensions;
   soup.files = scene->files;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "io/formats/mesh_soup.h"
+#include "lodestone/io/formats/joined_vertices.h"
 #include "lodestone/io/formats/mesh_file_options.h"
 
 /// A glTF file as Lodestone needs it: triangles, and everything that moves their vertices.
@@ -34,6 +35,7 @@ struct Gltf_shape {
   std::vector<std::uint32_t> joints = {};     ///< `influences` per vertex: indices into the skin's list
   std::vector<double> joint_weights = {};     ///< their sum is 1 for each vertex
   std::vector<Corners> faces = {};
+  std::vector<std::uint32_t> first_of = {};  ///< per vertex: the first of those that always move with it
 
   std::size_t vertices() const { return positions.size() / 3; }
 };
@@ -105,6 +107,9 @@ bool is_gltf(const std::filesystem::path& file);
 /// @throws Bad_mesh
 std::shared_ptr<const Gltf_scene> read_gltf_scene(const std::filesystem::path& file,
                                                   const Mesh_file_options& options = {});
+
+/// The vertices of all parts.
+Joined_vertices joined_vertices(const Gltf_scene& scene);
 
 /// The triangles of all parts, with vertices at rest.
 Polygon_soup soup_of(std::shared_ptr<const Gltf_scene> scene);

@@ -75,6 +75,7 @@ Mesh_file mesh_of(const Mesh_soup& soup, const std::string& name) {
                    .file_vertex = std::move(tracked.file_vertex),
                    .file_vertices = soup.points.size(),
                    .file_face = soup.file_face,
+                   .joined = soup.joined,
                    .parts = soup.parts,
                    .ignored_extensions = soup.ignored_extensions,
                    .files = soup.files};

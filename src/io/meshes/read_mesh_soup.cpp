@@ -106,6 +106,7 @@ Polygon_soup soup_of(const Game_model& model) {
     throw Bad_mesh(error.what());
   }
   for (const auto& face : model.faces) soup.faces.emplace_back(face.begin(), face.end());
+  soup.joined = model.joined;
   return soup;
 }
 

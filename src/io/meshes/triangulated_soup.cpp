@@ -157,6 +157,7 @@ Mesh_soup triangulated(Polygon_soup soup) {
   Mesh_soup result{.points = std::move(soup.points),
                    .faces = {},
                    .file_face = {},
+                   .joined = std::move(soup.joined),
                    .parts = std::move(soup.parts),
                    .not_read = std::move(soup.not_read),
                    .ignored_extensions = std::move(soup.ignored_extensions),

@@ -12,6 +12,7 @@
 #include "io/meshes/triangulated_soup.h"
 #include "io/motion/game_motion.h"
 #include "io/motion/gltf_motion.h"
+#include "io/motion/keep_joined.h"
 #include "lodestone/io/files/numbered_files.h"
 #include "lodestone/io/motion/deformation.h"
 #include "lodestone/io/motion/point_cache.h"
@@ -89,12 +90,15 @@ Animation cache(const fs::path& file, const fs::path& mesh, const Mesh_file_opti
                    .vertices = header.vertices,
                    .frames_per_second = header.frames_per_second,
                    .files = {file}};
+  Joined_vertices joined;
   if (!mesh.empty()) {
-    set_surface(result, read_mesh_soup(mesh, limits));
+    Mesh_soup soup = read_mesh_soup(mesh, limits);
+    joined = std::move(soup.joined);
+    set_surface(result, std::move(soup));
     result.files.push_back(mesh);
   }
   const auto read = header.format == Cache_format::pc2 ? read_point_cache : read_mdd_cache;
-  result.motion = read(file, result.vertices);
+  result.motion = keep_joined(read(file, result.vertices), joined, mesh);
   return result;
 }
 

@@ -34,7 +34,9 @@ Motion computed(Motion motion, std::size_t count, Compute compute) {
             std::vector<Point> original(count);
             inner(frame, original);
             compute(original, positions);
-          }};
+          },
+          .frames_per_second = motion.frames_per_second,
+          .start = motion.start};
 }
 
 /// Kept vertices by the cube of a grid that they lie in.

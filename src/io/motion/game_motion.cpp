@@ -10,22 +10,22 @@
 namespace lodestone {
 
 Motion motion_of(std::shared_ptr<const Game_model> model) {
-  const auto frames = model->frames;
-  return {.frames = frames, .pose = [model = std::move(model)](std::size_t frame, std::span<Point> positions) {
-            if (frame >= model->frames)
-              throw Bad_motion(fmt::format("{}: frame {} (counted from 0) is requested, the model has {}", model->name,
-                                           frame, model->frames));
-            if (positions.size() != model->vertices)
-              throw Bad_motion(fmt::format("{}: positions of {} vertices are requested, the model has {}", model->name,
-                                           positions.size(), model->vertices));
-            pose_game_model(*model, frame, positions);
-          }};
+  const auto pose = [model](std::size_t frame, std::span<Point> positions) {
+    if (frame >= model->frames)
+      throw Bad_motion(fmt::format("{}: frame {} (counted from 0) is requested, the model has {}", model->name, frame,
+                                   model->frames));
+    if (positions.size() != model->vertices)
+      throw Bad_motion(fmt::format("{}: positions of {} vertices are requested, the model has {}", model->name,
+                                   positions.size(), model->vertices));
+    pose_game_model(*model, frame, positions);
+  };
+  return {.frames = model->frames, .pose = pose, .joined = model->joined};
 }
 
-Motion read_game_motion(const std::filesystem::path& file, std::size_t vertices) {
+Motion read_game_motion(const std::filesystem::path& file, std::size_t vertices, const Mesh_file_options& limits) {
   std::shared_ptr<const Game_model> model;
   try {
-    model = read_game_model(file);
+    model = read_game_model(file, limits);
   } catch (const Bad_mesh& error) {
     throw Bad_motion(error.what());
   }

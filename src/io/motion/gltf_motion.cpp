@@ -195,6 +195,7 @@ Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_opti
           .start = sampling->start,
           .resampled = std::move(resampled),
           .computed = computed,
+          .joined = joined_vertices(*scene),
           .animations = {.names = names_in(*scene), .played = sampling->animation}};
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/motion/mesh_sequence.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -80,6 +82,16 @@ void check_files(const std::vector<std::filesystem::path>& files) {
 }
 
 }  // namespace
+
+void check_first_frame(const std::vector<std::filesystem::path>& files, const std::filesystem::path& mesh,
+                       const Mesh_file_options& limits) {
+  check_files(files);
+  std::error_code ignored;
+  if (equivalent(files.front(), mesh, ignored)) return;
+  const auto first = read_frame(files.front(), limits), of_mesh = read_frame(mesh, limits);
+  check_vertices(files.front(), first.points.size(), of_mesh.points.size());
+  check_same_faces(files.front(), first.faces, {mesh, of_mesh.faces});
+}
 
 Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices,
                           const Mesh_file_options& limits) {

@@ -19,6 +19,10 @@ class Animation_frames {
                    std::size_t passes = 1);
 
   std::size_t size() const { return numbers_.size(); }
+  /// Time of the i-th frame in seconds.
+  float time(std::size_t i) const {
+    return static_cast<float>(options_.start + static_cast<double>(i) / options_.frames_per_second);
+  }
   /// Positions of the i-th frame of the output, in doubles; valid until the next call.
   /// @throws Bad_motion
   std::span<const Point> positions(std::size_t i);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -68,31 +69,29 @@ namespace {
 
 // ---- Point caches ----
 
-std::string cache_header(Cache_format format, std::size_t vertices, std::size_t frames, double rate) {
+std::string cache_header(Cache_format format, std::size_t vertices, const Animation_frames& frames) {
   std::string bytes;
   const auto count = [](std::size_t value) { return static_cast<std::int32_t>(value); };
   if (format == Cache_format::pc2) {
     bytes = pc2::signature;
     for (const auto value : {std::int32_t{1}, count(vertices)}) append(bytes, value);
     for (const float value : {0.F, 1.F}) append(bytes, value);  // first frame, frames per sample
-    append(bytes, count(frames));
+    append(bytes, count(frames.size()));
     return bytes;
   }
-  for (const auto value : {frames, vertices}) append(bytes, count(value), std::endian::big);
-  for (std::size_t frame = 0; frame < frames; ++frame)
-    append(bytes, static_cast<float>(static_cast<double>(frame) / rate), std::endian::big);
+  for (const auto value : {frames.size(), vertices}) append(bytes, count(value), std::endian::big);
+  for (std::size_t i = 0; i < frames.size(); ++i) append(bytes, frames.time(i), std::endian::big);
   return bytes;
 }
 
-void write_cache(const fs::path& output, Cache_format format, Animation_frames frames, std::size_t vertices,
-                 double rate) {
+void write_cache(const fs::path& output, Cache_format format, Animation_frames frames, std::size_t vertices) {
   constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
   if (frames.size() > most || vertices > most)
     throw Bad_argument(
         fmt::format("{}: {} frames of {} vertices are too many for 32 bits", output.string(), frames.size(), vertices));
   const auto order = format == Cache_format::pc2 ? std::endian::little : std::endian::big;
   Atomic_file out(output);
-  out.write(cache_header(format, vertices, frames.size(), rate));
+  out.write(cache_header(format, vertices, frames));
   std::string bytes;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     bytes.clear();
@@ -185,15 +184,22 @@ std::vector<fs::path> files_of(const fs::path& output, std::size_t frames) {
   return files;
 }
 
+double start_at(const Motion& motion, double frames_per_second) {
+  return std::max(0.0, motion.start * motion.frames_per_second / frames_per_second);
+}
+
 void write_animation(const fs::path& output, const Animation& animation, const Animation_output_options& options) {
   if (!(options.frames_per_second > 0) || !std::isfinite(options.frames_per_second))
     throw Bad_argument(
         fmt::format("{} frames per second: expected a positive and finite number", options.frames_per_second));
+  if (!std::isfinite(options.start) || (options.start < 0 && is_gltf(output)))
+    throw Bad_argument(
+        fmt::format("a start at {} s: expected a finite number, which is 0 or more in glTF", options.start));
   const auto extension = lower_case(output.extension().string());
   const bool is_mesh = extension == ".off" || extension == ".obj" || extension == ".ply" || extension == ".stl";
   if (extension == ".pc2" || extension == ".mdd")
     return write_cache(output, extension == ".pc2" ? Cache_format::pc2 : Cache_format::mdd,
-                       {output, animation, options}, animation.vertices, options.frames_per_second);
+                       {output, animation, options}, animation.vertices);
   if (!is_mesh && !is_gltf(output))
     throw Bad_argument(fmt::format("{}: animations are written as .pc2, .mdd, .gltf, .glb, .obj, .off, .ply or .stl",
                                    output.string()));

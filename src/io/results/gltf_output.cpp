@@ -155,8 +155,8 @@ Json Gltf_writer::accessors() const {
   const auto frames = frames_.size();
   if (frames == 1) return result;
   auto& times = add(floats, frames, "SCALAR");
-  times["min"] = {0.F};
-  times["max"] = {static_cast<float>(static_cast<double>(frames - 1) / options_.frames_per_second)};
+  times["min"] = {frames_.time(0)};
+  times["max"] = {frames_.time(frames - 1)};
   add(floats, frames * (frames - 1), "SCALAR");
   return result;
 }
@@ -196,8 +196,7 @@ std::string Gltf_writer::small_views() const {
     append(bytes, std::uint8_t{255});
   }
   const auto frames = frames_.size();
-  for (std::size_t frame = 0; frame < frames && frames > 1; ++frame)
-    append(bytes, static_cast<float>(static_cast<double>(frame) / options_.frames_per_second));
+  for (std::size_t frame = 0; frame < frames && frames > 1; ++frame) append(bytes, frames_.time(frame));
   for (std::size_t frame = 0; frame < frames; ++frame)
     for (std::size_t target = 1; target < frames; ++target) append(bytes, target == frame ? 1.F : 0.F);
   return bytes;

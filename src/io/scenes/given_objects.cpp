@@ -147,6 +147,7 @@ Animation animation_of(const Scene_object& object, std::size_t frames) {
   animation.parts = object.parts;
   animation.ignored_extensions = object.ignored_extensions;
   animation.motion = object.motion;
+  animation.frames_per_second = object.motion.frames_per_second;
   if (animation.motion.frames == 0) animation.motion.frames = frames;
   animation.files = object.files;
   return animation;

@@ -13,6 +13,8 @@
 
 #include "io/files/json_reader.h"
 #include "io/files/small_text.h"
+#include "io/motion/keep_joined.h"
+#include "io/motion/mesh_sequence.h"
 #include "io/scenes/object_of.h"
 #include "io/scenes/scene_fields.h"
 #include "io/scenes/scene_folder.h"
@@ -117,9 +119,12 @@ Motion read_motion(const Json_value& value, const Scene_object& object, const Pl
     if (kind == "pc2") return read_point_cache(folder.file(source), vertices);
     if (kind == "mdd") return read_mdd_cache(folder.file(source), vertices);
     if (kind == "gltf") return read_gltf(source, vertices, folder);
-    if (kind == "keyframes") return read_game_motion(folder.file(source), vertices);
-    return read_mesh_sequence(folder.sequence(source), vertices, folder.limits());
+    if (kind == "keyframes") return read_game_motion(folder.file(source), vertices, folder.limits());
+    auto files = folder.sequence(source);
+    if (!object.files.empty()) check_first_frame(files, object.files.front(), folder.limits());
+    return read_mesh_sequence(std::move(files), vertices, folder.limits());
   });
+  if (!object.files.empty()) motion = keep_joined(std::move(motion), object.joined, object.files.front());
   return placed(std::move(motion), placement);
 }
 

@@ -103,6 +103,36 @@ TEST_F(Game_models, can_be_mesh_and_motion_of_a_scene) {
   EXPECT_THROW(read_game_motion(folder.path() / "a.md2", 5), Bad_motion);
 }
 
+TEST_F(Game_models, must_not_part_what_the_mesh_has_joined) {
+  auto parted = square_md3();
+  const std::size_t last_vertex = 108 + 120 + 5 * 8 + 4 * 8;  // of the first surface, in the second frame
+  parted.replace(last_vertex, 2, packed<std::int16_t>({99}));
+  folder.write("rest.md3", square_md3());
+  folder.write("parted.md3", parted);
+  EXPECT_EQ(read_mesh(folder.path() / "rest.md3").joined, (Joined_vertices{0, 1, 2, 3, 0, 5, 6, 7, 8, 5}));
+  const auto scene = [&](const std::string& mesh) {
+    return read(folder, with_object(R"("mesh": ")" + mesh + R"(", "motion": {"keyframes": "parted.md3"})"));
+  };
+  std::vector<Point> positions(10);
+  const auto kept = scene("parted.md3"), lost = scene("rest.md3");
+  kept.objects[0].motion.pose(1, positions);
+  lost.objects[0].motion.pose(0, positions);
+  EXPECT_THROW(lost.objects[0].motion.pose(1, positions), Bad_motion);
+}
+
+TEST_F(Game_models, may_end_with_an_empty_surface) {
+  auto bytes = square_md3();
+  bytes.replace(84, 4, numbers({3}));
+  bytes += "IDP3" + padded("nothing", 64) + numbers({0, 2, 0, 0, 0, 108, 108, 108, 108, 108});
+  EXPECT_EQ(read_mesh(folder.write("a.md3", bytes)).file_vertices, 10U);
+}
+
+TEST_F(Game_models, have_limits) {
+  folder.write("a.md2", square_md2());
+  EXPECT_THROW(read_game_motion(folder.path() / "a.md2", 4, {.max_faces = 1}), Bad_motion);
+  EXPECT_EQ(read_game_motion(folder.path() / "a.md2", 4, {.max_faces = 2}).frames, 2U);
+}
+
 TEST_F(Game_models, with_wrong_counts_and_offsets_are_refused) {
   const auto md2 = square_md2();
   const auto changed = [](std::string bytes, std::size_t at, double value) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lodestone/io/formats/file_part.h"
+#include "lodestone/io/formats/joined_vertices.h"
 #include "lodestone/io/formats/mesh_file_options.h"
 #include "lodestone/mesh/concepts.h"
 #include "lodestone/mesh/mesh_numbering.h"
@@ -34,6 +35,7 @@ struct Mesh_file {
   std::vector<std::uint32_t> file_vertex;         ///< per mesh vertex: its index in the file
   std::size_t file_vertices = 0;                  ///< number of vertices in the file
   std::vector<std::uint32_t> file_face;           ///< per mesh face: its face in the file; never decreases
+  Joined_vertices joined = {};                    ///< vertices of the file: own positions must keep them together
   File_parts parts = {};                          ///< that the file names
   std::set<std::string> ignored_extensions = {};  ///< of glTF: optional ones that say where surfaces are, such as
                                                   ///< EXT_mesh_gpu_instancing; the mesh is that of the file without

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "lodestone/io/formats/joined_vertices.h"
 #include "lodestone/io/formats/mesh_file_options.h"
 #include "lodestone/mesh/concepts.h"
 
@@ -45,6 +46,7 @@ struct Motion {
   /// The same motion of some vertices, as one whose frames need not be posed as a whole; empty: `pose` must be used.
   /// @param vertices  their indices, in the order of the file or shape
   std::function<std::unique_ptr<Computed_motion>(std::span<const std::uint32_t> vertices)> computed = {};
+  Joined_vertices joined = {};                    ///< of a glTF, MD2 or MD3 file; empty in other formats
   File_animations animations = {};                ///< of a glTF file; no names in other formats
   std::vector<std::filesystem::path> files = {};  ///< of a glTF file: those that it is read from
 };
@@ -63,8 +65,9 @@ Motion read_mdd_cache(const std::filesystem::path& file, std::size_t vertices);
 
 /// Motion from the frames of a game model, MD2 or MD3. The file is kept in memory.
 /// @param vertices  number of vertices the model must have
+/// @param limits    of the file
 /// @throws Bad_motion  a broken file, a wrong number of vertices; from `pose`: a non-finite coordinate
-Motion read_game_motion(const std::filesystem::path& file, std::size_t vertices);
+Motion read_game_motion(const std::filesystem::path& file, std::size_t vertices, const Mesh_file_options& limits = {});
 
 /// Motion from one mesh file per frame, all with the same faces. The first file is read at once, for its faces; `pose`
 /// reads the file of each frame on demand. Any format of `read_mesh`; positions come in file order.

@@ -14,11 +14,17 @@ namespace lodestone {
 struct Animation_output_options {
   std::vector<std::size_t> frames = {};    ///< frames of the motion, in output order; empty: all
   double frames_per_second = 30;           ///< of the output; > 0
+  double start = 0;                        ///< time of the first frame in seconds, in glTF and MDD; >= 0 in glTF
   std::vector<Region_index> regions = {};  ///< per vertex: its region, shown as vertex colours in glTF; empty: none
   bool numbered = true;  ///< whether `*` and `#` in the name of a mesh file stand for the number of the frame
   /// Called between frames. If it throws, the output is abandoned and nothing is written.
   std::function<void(std::size_t done, std::size_t of)> progress = {};
 };
+
+/// When the first frame of a motion is, in seconds, where its frames follow each other at another rate. 0 if they have
+/// no times, or begin before 0.
+/// @param frames_per_second  > 0
+double start_at(const Motion& motion, double frames_per_second);
 
 /// Writes an animation in the format of `output`'s extension:
 ///
