@@ -30,11 +30,12 @@ void need_faces(const Animation& animation) {
 template <class Compute>
 Motion computed(Motion motion, std::size_t count, Compute compute) {
   return {.frames = motion.frames,
-          .pose = [inner = std::move(motion.pose), count, compute](std::size_t frame, std::span<Point> positions) {
-            std::vector<Point> original(count);
-            inner(frame, original);
-            compute(original, positions);
-          },
+          .pose =
+              [inner = std::move(motion.pose), count, compute](std::size_t frame, std::span<Point> positions) {
+                std::vector<Point> original(count);
+                inner(frame, original);
+                compute(original, positions);
+              },
           .frames_per_second = motion.frames_per_second,
           .start = motion.start};
 }
