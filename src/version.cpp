@@ -5,4 +5,10 @@ namespace lodestone {
 
 std::string_view version() { return LODESTONE_VERSION_TEXT; }
 
+#ifdef _GLIBCXX_DEBUG
+void compiled_with_glibcxx_debug() {}
+#else
+void compiled_without_glibcxx_debug() {}
+#endif
+
 }  // namespace lodestone

@@ -19,6 +19,7 @@
 #include "lodestone/partition/strategies.h"
 #include "lodestone/queries/ask_each.h"
 #include "lodestone/queries/ray_tree.h"
+#include "lodestone/version.h"
 
 namespace lodestone {
 
@@ -62,7 +63,9 @@ class Detector {
   /// A detector without objects.
   /// @throws Bad_argument  an option out of range, or mode `certified` with other volumes than boxes
   explicit Detector(const Detector_options& options = {}, Strategy strategy = {})
-      : strategy_(std::make_shared<const Strategy>(std::move(strategy))), detection_(make_detection<Volume>(options)) {}
+      : strategy_(std::make_shared<const Strategy>(std::move(strategy))), detection_(make_detection<Volume>(options)) {
+    need_same_containers();
+  }
 
   /// Adds an object, and adds the maps `v:region` and `v:particle` to its mesh. Maps of these names that the mesh has
   /// already are taken, and their values replaced. Two detectors that share a mesh write to the same maps,
@@ -174,7 +177,8 @@ class Detector {
     detection_->save(checked(object), state);
     return seal_saved(state.take());
   }
-  /// Takes what was saved of an object with the same faces, by a detector of the same mode, in place of building it.
+  /// Takes what was saved of an object with the same faces, in mode `exact` also with the same `file_vertex`, by a
+  /// detector of the same mode, in place of building it.
   /// Positions may be others than when it was saved. It has the regions, particles and leaves with which it was saved,
   /// whatever the options say; they count when it is built anew. O(V + F).
   /// @throws Bad_argument      no such object

@@ -47,6 +47,7 @@ Collisions collisions_of(Frame frame);
 /// @throws Bad_argument  an option out of range, or one mesh given twice
 template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b>
 Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_options& options = {}) {
+  need_same_containers();
   if (auto frame = frame_at_once(a, b, options)) return collisions_of(std::move(*frame));
   Detector detector(options);
   const Object_id first = detector.add(a, {.name = "the first mesh"});
@@ -68,6 +69,7 @@ Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_opti
 template <Triangle_mesh Mesh>
 Collisions find_self_collisions(const Mesh& mesh, const Detector_options& options = {},
                                 std::span<const std::uint32_t> file_vertex = {}) {
+  need_same_containers();
   return collisions_of(self_frame_at_once(mesh, options, file_vertex));
 }
 

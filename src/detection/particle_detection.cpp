@@ -32,9 +32,15 @@ void Particle_detection::update(Object_id id) {
   if (!object.prepared || options_.mode != Mode::particles) return;
   check_arithmetic();
   timed(since_last_frame_.seconds.repartition, [&] {
+    const Region_index checked = object.particle_object.last_checked();
     if (!object.named([&] { return has_outgrown(object.particle_object); })) return;
     Object* const outgrown[] = {&object};
-    build(outgrown, Seams::keep);
+    try {
+      build(outgrown, Seams::keep);
+    } catch (...) {
+      object.particle_object.check_after(checked);  // a call that is repeated finds it again
+      throw;
+    }
     ++since_last_frame_.repartitions;
   });
 }

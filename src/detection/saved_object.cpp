@@ -81,7 +81,7 @@ void check_origin(const Saved_origin& origin, const std::string& title, State_re
         fmt::format("the object was saved with {} vertices and {} faces, but {} has {} vertices and {} faces", vertices,
                     faces, title, origin.vertices, origin.corners.size()));
   if (state.value<std::uint64_t>() != hash_of_faces(origin.corners))
-    throw Bad_saved_object(title + " has other faces than the object that was saved");
+    throw Bad_saved_object(title + " has other faces, or other joined vertices, than the object that was saved");
 }
 
 void save_regions(const std::optional<Numbered_partition>& regions, State_writer& state) {

@@ -8,7 +8,7 @@ namespace lodestone {
 
 namespace {
 
-/// Trees are some dozen levels deep; those that have been mended very often may have more.
+/// Trees are some dozen levels deep, also where they have been mended; forged ones may have more.
 constexpr std::uint32_t most_levels = 4096;
 
 /// Whether these are the places where the lists of `lists` leaves start in one list of a length, none of them empty and

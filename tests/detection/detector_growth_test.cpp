@@ -4,12 +4,59 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <stdexcept>
+#include <utility>
 
 #include "detection/detector_scenes.h"
 
 namespace lodestone {
 namespace {
+
+constexpr std::size_t endless = std::numeric_limits<std::size_t>::max();
+
+/// Where the vertices of a mesh are, until they have been read so many times.
+struct Failing_points {
+  using key_type = Surface_mesh::Vertex_index;
+  using value_type = Point;
+  using reference = Point;
+  using category = boost::readable_property_map_tag;
+
+  const Surface_mesh* mesh;
+  std::size_t* reads_left;
+
+  friend Point get(const Failing_points& points, key_type vertex) {
+    if (*points.reads_left == 0) throw std::runtime_error("no more reads");
+    --*points.reads_left;
+    return points.mesh->point(vertex);
+  }
+};
+
+/// A ball of which a tip has grown, in a detector that does not know yet.
+struct Grown_tip {
+  Surface_mesh ball = sphere(12);
+  std::size_t reads_left = endless;
+  Detector<> detector{{.mode = Mode::particles, .particles = 16, .growth = 1.05}};
+
+  Grown_tip() {
+    detector.add(std::as_const(ball), Failing_points{&ball, &reads_left});
+    detector.detect();
+    deform(ball, [](const Point& p) { return p.z() > 0.85 ? Point(p.x(), p.y(), 0.85 + 4 * (p.z() - 0.85)) : p; });
+  }
+  /// @return whether it could be done
+  bool update(std::size_t reads) {
+    reads_left = reads;
+    try {
+      detector.update(0);
+    } catch (const std::runtime_error&) {
+      reads_left = endless;
+      return false;
+    }
+    reads_left = endless;
+    return true;
+  }
+};
 
 TEST(Detector, an_object_that_moves_without_growing_is_not_repartitioned) {
   Owned_meshes scene{potato(10), potato(10, 2)};
@@ -89,6 +136,26 @@ TEST(Detector, particles_are_counted_beside_objects_without_extent) {
   add_all(detector, scene);
   expect_true(detector.detect(), scene);
   for (const Object_id object : {0U, 1U, 2U}) EXPECT_GE(detector.object(object).particles().at.size(), 1U);
+}
+
+TEST(Detector, an_update_that_fails_finds_again_what_has_grown) {
+  std::size_t calls = 1;  // until the region at the tip has its turn
+  for (Grown_tip tip; tip.update(endless) && tip.detector.detect().statistics.repartitions == 0; ++calls)
+    ASSERT_LT(calls, 16U);
+  ASSERT_GT(calls, 1U) << "or all would be found at once";
+  std::size_t failures = 0;
+  for (std::size_t reads = 0; reads < 2000; reads += 20) {
+    SCOPED_TRACE(reads);
+    Grown_tip tip;
+    for (std::size_t call = 1; call < calls; ++call) tip.update(endless);
+    if (!tip.update(reads)) {
+      ++failures;
+      EXPECT_TRUE(tip.update(endless));
+    }
+    EXPECT_EQ(tip.detector.detect().statistics.repartitions, 1U);
+  }
+  EXPECT_GT(failures, 10U);
+  EXPECT_LT(failures, 100U);
 }
 
 TEST(Detector, repartitions_never_if_told_so) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "lodestone/detection/frame.h"
 #include "lodestone/detection/pair_levels.h"
 #include "lodestone/detection/pair_search.h"
 #include "lodestone/mesh/workers.h"

@@ -115,8 +115,12 @@ class Particle_object {
   /// samples per region; a region that seems to have grown is measured anew along shortest paths before it counts.
   /// @param most_regions  so many regions are looked at, from where the last call ended
   bool has_outgrown(double growth, std::size_t most_regions = std::numeric_limits<std::size_t>::max());
-  /// Whether the anchors of the regions had spread by more than the growth limit when they were last read. After
-  /// `prepare_meetings`.
+  /// The last region that `has_outgrown` has looked at.
+  Region_index last_checked() const { return last_checked_; }
+  /// The next call looks at the region after this one first.
+  void check_after(Region_index region) { last_checked_ = region; }
+  /// Whether the anchors of the regions had spread by more than the growth limit in the last frame, if they were read
+  /// in it. After `prepare_meetings`.
   bool seemed_larger(double growth) const;
 
   /// The faces that a particle stands for, at their positions in frame number `frame`. After `prepare_patches` or

@@ -16,7 +16,7 @@ File_bytes::File_bytes(const std::filesystem::path& file) : name_(file.string())
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!exists(status)) throw Bad_mesh(fmt::format("{}: there is no such file", name_));
-  if (is_directory(status)) throw Bad_mesh(fmt::format("{}: this is a directory, not a mesh file", name_));
+  if (is_directory(status)) throw Bad_mesh(fmt::format("{}: this is a folder, not a file", name_));
   // A pipe or a device could deliver bytes without end.
   if (!is_regular_file(status)) throw Bad_mesh(fmt::format("{}: this is not a regular file", name_));
   const auto size = std::filesystem::file_size(file, error);

@@ -59,7 +59,7 @@ const Mesh_format& format_of(const std::filesystem::path& file) {
     throw Bad_mesh(fmt::format("{}: there is no such file", file.string()));
   if (format == formats.end())
     throw Bad_mesh(fmt::format("{}: {}expected a file .off, .obj, .ply, .stl, .gltf, .glb, .md2 or .md3{}",
-                               file.string(), is_directory(file, ignored) ? "this is a directory; " : "",
+                               file.string(), is_directory(file, ignored) ? "this is a folder; " : "",
                                is_directory(file, ignored) ? "" : ", found extension " + in_quotes(extension)));
   return *format;
 }

@@ -59,8 +59,8 @@ TEST_F(Hostile_mesh, a_missing_file_is_refused) { expect_error(folder.path() / "
 TEST_F(Hostile_mesh, a_folder_is_refused) {
   const auto inner = folder.path() / "folder.off";
   create_directory(inner);
-  expect_error(inner, ": this is a directory");
-  expect_error(folder.path(), ": this is a directory; expected a file .off, .obj");
+  expect_error(inner, ": this is a folder");
+  expect_error(folder.path(), ": this is a folder; expected a file .off, .obj");
 }
 
 TEST_F(Hostile_mesh, an_empty_file_is_refused) {
