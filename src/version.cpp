@@ -5,7 +5,7 @@ namespace lodestone {
 
 std::string_view version() { return LODESTONE_VERSION_TEXT; }
 
-#ifdef _GLIBCXX_DEBUG
+#if defined(__GLIBCXX__) && defined(_GLIBCXX_DEBUG)
 void compiled_with_glibcxx_debug() {}
 #else
 void compiled_without_glibcxx_debug() {}

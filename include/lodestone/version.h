@@ -30,14 +30,14 @@ std::string_view version();
 
 /// Containers of the standard library cross the interface, and `_GLIBCXX_DEBUG` changes their layout. Only one of these
 /// is in a library, so a program that was compiled otherwise cannot be linked with it.
-#ifdef _GLIBCXX_DEBUG
+#if defined(__GLIBCXX__) && defined(_GLIBCXX_DEBUG)
 void compiled_with_glibcxx_debug();
 #else
 void compiled_without_glibcxx_debug();
 #endif
 /// Named by what makes a detector.
 inline void need_same_containers() {
-#ifdef _GLIBCXX_DEBUG
+#if defined(__GLIBCXX__) && defined(_GLIBCXX_DEBUG)
   compiled_with_glibcxx_debug();
 #else
   compiled_without_glibcxx_debug();

@@ -152,6 +152,15 @@ void note_faces_not_kept(const Convert_command& command, const Animation& animat
       command.output.string()));
 }
 
+void note_joined(const Convert_command& command, const Animation& animation, const std::string& name) {
+  const auto& joined = animation.motion.joined;
+  std::size_t count = 0;
+  for (std::size_t vertex = 0; vertex < joined.size(); ++vertex) count += joined[vertex] != vertex ? 1 : 0;
+  if (count > 0 && !is_point_cache(command.output))
+    note(fmt::format("{}: {} of {} vertices double others along seams; the faces that are written name the others",
+                     name, count, joined.size()));
+}
+
 /// Files of an earlier, longer run would be read with those of this one.
 void note_other_files(const Convert_command& command, std::size_t frames) {
   if (is_point_cache(command.output) || is_gltf(command.output) || !is_pattern(command.output)) return;
@@ -172,6 +181,7 @@ void report(const Convert_command& command, const Animation& original, const Ani
   note(ignored_extensions_note(name, original.ignored_extensions));
   note(cut_faces_note(name, original.file_face));
   note(not_kept_note(name, original.not_read));
+  note_joined(command, original, name);
   note_faces_not_kept(command, animation);
   note_rounding(command, rounding);
   note_other_files(command, frames);

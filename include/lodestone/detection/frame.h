@@ -27,7 +27,8 @@ struct Stage_times {
   double build = 0;         ///< numbering, partition and tree of objects that are new, or that the caller rebuilt
   double repartition = 0;   ///< growth checks and repartitions; in mode exact rebuilding loose trees
   double refit = 0;         ///< mode exact: reading all positions, fitting all volumes
-  double broad_phase = 0;   ///< reading the particles, or with meetings the anchors of regions; candidate object pairs
+  double broad_phase = 0;   ///< reading the particles, or with meetings small objects and the anchors of regions;
+                            ///< candidate object pairs
   double relaxation = 0;    ///< particles walking as published
   double candidates = 0;    ///< as published: particle pairs below the collision distance
   double confirmation = 0;  ///< as published: exact checks of candidate regions. With meetings, and in modes exact and

@@ -43,8 +43,8 @@ class Region_anchors {
   /// @param reach      a region is taken to lie within so many times its radius of its anchor
   /// @throws Bad_mesh  a coordinate is not finite
   void read(Tree_on_demand& tree, double reach);
-  /// Reads where the surface is. If it is small, at most 256 vertices, all of it is read, which takes no longer than to
-  /// read the anchors, whose radii would make the box several times too wide. Otherwise the same as `read`.
+  /// Reads where the surface is. If it is small, at most 256 vertices, all of it is read, since the radii of anchors
+  /// would make its box several times too wide. Otherwise the same as `read`. O(V) for a small one, else O(regions).
   /// @throws Bad_mesh  a coordinate is not finite
   void find(Tree_on_demand& tree, double reach);
   /// Reads the anchors of a small surface as well, after `find`.

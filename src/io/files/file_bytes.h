@@ -17,7 +17,7 @@ inline constexpr std::uintmax_t longest_mesh_file = std::uintmax_t{16} << 30U;
 /// off ends the program.
 class File_bytes {
  public:
-  /// @throws Bad_mesh  the file does not exist, is a directory, empty, unreadable or longer than
+  /// @throws Bad_mesh  the file does not exist, is a folder, empty, unreadable or longer than
   ///                   `longest_mesh_file`, or has become shorter meanwhile
   explicit File_bytes(const std::filesystem::path& file);
 

@@ -168,9 +168,9 @@ void weld(Game_model& model) {
     for (std::uint32_t vertex = 0; vertex < surface.vertices; ++vertex)
       first_of.push_back(first + *seen.insert(vertex).first);
   }
+  model.joined = joined_of(first_of, model.faces);
   for (auto& face : model.faces)
     for (auto& corner : face) corner = first_of[corner];
-  model.joined = if_any_joined(std::move(first_of));
 }
 
 Game_model Model_reader::read() {

@@ -2,13 +2,20 @@
 #include "io/formats/mesh_soup.h"
 
 #include <cstdint>
+#include <numeric>
 
 namespace lodestone {
 
-Joined_vertices if_any_joined(Joined_vertices first_of) {
-  for (std::uint32_t vertex = 0; vertex < first_of.size(); ++vertex)
-    if (first_of[vertex] != vertex) return first_of;
-  return {};
+Joined_vertices joined_of(std::span<const std::uint32_t> first_of, std::span<const Corners> faces) {
+  Joined_vertices joined(first_of.size());
+  std::iota(joined.begin(), joined.end(), 0U);
+  bool any = false;
+  for (const auto& face : faces)
+    for (const auto vertex : face) {
+      joined[vertex] = first_of[vertex];
+      any |= first_of[vertex] != vertex;
+    }
+  return any ? joined : Joined_vertices();
 }
 
 std::vector<Corners> corners_of(const Mesh_soup& soup) {

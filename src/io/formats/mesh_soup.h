@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,10 @@ struct Mesh_soup {
   std::vector<std::filesystem::path> files = {};
 };
 
-/// The same list, or none if every vertex is its own first.
-Joined_vertices if_any_joined(Joined_vertices first_of);
+/// Vertices that no face uses are not joined: they are lost in any case.
+/// @param first_of  per vertex: the first that is always at its place
+/// @param faces     before first vertices are put in the place of others
+Joined_vertices joined_of(std::span<const std::uint32_t> first_of, std::span<const Corners> faces);
 
 /// The faces of a soup in compact form.
 std::vector<Corners> corners_of(const Mesh_soup& soup);

@@ -201,9 +201,9 @@ void Shape_reader::weld() {
   std::unordered_set<std::uint32_t, Same_vertex, Same_vertex> seen(count, same, same);
   std::vector<std::uint32_t> first_of(count);
   for (std::uint32_t vertex = 0; vertex < count; ++vertex) first_of[vertex] = *seen.insert(vertex).first;
+  shape_.joined = joined_of(first_of, shape_.faces);
   for (auto& face : shape_.faces)
     for (auto& corner : face) corner = first_of[corner];
-  shape_.first_of = std::move(first_of);
 }
 
 Gltf_shape Shape_reader::read() {
@@ -412,11 +412,14 @@ bool is_mirrored(const Gltf_scene& scene, const Gltf_part& part) {
 }  // namespace
 
 Joined_vertices joined_vertices(const Gltf_scene& scene) {
-  Joined_vertices first_of;
+  if (std::ranges::all_of(scene.parts, [](const auto& part) { return part.shape->joined.empty(); })) return {};
+  Joined_vertices joined;
   for (const auto& part : scene.parts)
-    for (const auto first : part.shape->first_of)
-      first_of.push_back(static_cast<std::uint32_t>(part.first_vertex) + first);
-  return if_any_joined(std::move(first_of));
+    for (std::size_t vertex = 0; vertex < part.shape->vertices(); ++vertex) {
+      const auto& own = part.shape->joined;
+      joined.push_back(static_cast<std::uint32_t>(part.first_vertex + (own.empty() ? vertex : own[vertex])));
+    }
+  return joined;
 }
 
 Polygon_soup soup_of(std::shared_ptr<const Gltf_scene> scene) {

@@ -35,7 +35,7 @@ struct Gltf_shape {
   std::vector<std::uint32_t> joints = {};     ///< `influences` per vertex: indices into the skin's list
   std::vector<double> joint_weights = {};     ///< their sum is 1 for each vertex
   std::vector<Corners> faces = {};
-  std::vector<std::uint32_t> first_of = {};  ///< per vertex: the first of those that always move with it
+  Joined_vertices joined = {};
 
   std::size_t vertices() const { return positions.size() / 3; }
 };

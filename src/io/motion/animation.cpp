@@ -53,6 +53,7 @@ Animation gltf(const fs::path& file, const Animation_options& options) {
   auto soup = triangulated(soup_of(scene));
   if (scene->animations.empty()) {
     result.motion = rest(soup.points);
+    result.motion.joined = soup.joined;
   } else {
     result.motion = motion_of(
         std::move(scene),

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -14,6 +16,14 @@
 namespace lodestone {
 namespace {
 
+double size_of(const Point& p) { return std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())}); }
+
+bool are_near(const Point& p, const Point& q, double distance) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(p[axis] - q[axis]) <= distance)) return false;
+  return true;
+}
+
 struct Joined_pair {
   std::uint32_t vertex, first;
 };
@@ -22,12 +32,15 @@ struct Joined_pairs {
   std::vector<Joined_pair> pairs;
   std::string mesh;
 
+  /// Apart by more than what is rounded to floats.
   void check(std::size_t frame, std::span<const Point> positions) const {
+    double largest = 0;
+    for (const auto [vertex, first] : pairs) largest = std::max(largest, size_of(positions[first]));
     for (const auto [vertex, first] : pairs)
-      if (positions[vertex] != positions[first])
+      if (!are_near(positions[vertex], positions[first], 0x1p-21 * largest))
         throw Bad_motion(fmt::format(
             "{}: vertices {} and {} (counted from 0) are one vertex there, since they are at one place, but "
-            "frame {} of the motion moves them apart: give the mesh in a format that keeps them, such as "
+            "frame {} of the motion moves them apart: export the mesh in a format that keeps them, such as "
             ".obj",
             mesh, first, vertex, frame));
   }

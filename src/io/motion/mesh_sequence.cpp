@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -81,16 +82,51 @@ void check_files(const std::vector<std::filesystem::path>& files) {
     if (!exists(file, ignored)) throw Bad_motion(fmt::format("{}: there is no such file", file.string()));
 }
 
+std::size_t first_of(const Joined_vertices& joined, std::size_t vertex) {
+  return joined.empty() ? vertex : joined[vertex];
+}
+
+/// Whether all vertices of one face are vertices of another.
+bool lies_in(const Face_corners& face, const Face_corners& whole) {
+  return std::ranges::all_of(
+      face.vertices, [&](std::size_t v) { return std::ranges::find(whole.vertices, v) != whole.vertices.end(); });
+}
+
+/// Compares faces one after the other. Where one has more triangles than that of the other file, the next ones there
+/// must be its parts.
+/// @return the first of `faces` that differs; none if all are the same
+std::optional<std::size_t> first_other(const std::vector<Face_corners>& faces,
+                                       const std::vector<Face_corners>& others) {
+  std::size_t face = 0, other = 0;
+  while (face < faces.size() && other < others.size()) {
+    const bool is_whole = faces[face].triangles >= others[other].triangles;
+    const Face_corners& whole = is_whole ? faces[face] : others[other];
+    const auto& parts = is_whole ? others : faces;
+    std::size_t &at = is_whole ? other : face, left = whole.triangles;
+    const std::size_t found = face;
+    if (parts[at].triangles == left && !lies_in(whole, parts[at])) return found;
+    for (; left > 0; left -= parts[at++].triangles)
+      if (at == parts.size() || parts[at].triangles > left || !lies_in(parts[at], whole)) return found;
+    ++(is_whole ? face : other);
+  }
+  if (face == faces.size() && other == others.size()) return std::nullopt;
+  return std::min(face, faces.size() - 1);
+}
+
 }  // namespace
 
-void check_first_frame(const std::vector<std::filesystem::path>& files, const std::filesystem::path& mesh,
-                       const Mesh_file_options& limits) {
-  check_files(files);
-  std::error_code ignored;
-  if (equivalent(files.front(), mesh, ignored)) return;
-  const auto first = read_frame(files.front(), limits), of_mesh = read_frame(mesh, limits);
-  check_vertices(files.front(), first.points.size(), of_mesh.points.size());
-  check_same_faces(files.front(), first.faces, {mesh, of_mesh.faces});
+void check_faces_of_file(const std::filesystem::path& file, const Moved_faces& moved, const Mesh_file_options& limits) {
+  const Polygon_soup soup = read_frame(file, limits);
+  const auto joined = [&](std::vector<Face_corners> faces) {
+    for (auto& face : faces)
+      for (auto& vertex : face.vertices) vertex = first_of(moved.joined, first_of(soup.joined, vertex));
+    return faces;
+  };
+  std::vector<Face_corners> faces;
+  for (const auto& face : soup.faces) faces.push_back({face.size() - 2, face});
+  if (const auto other = first_other(joined(std::move(faces)), joined(moved.faces)))
+    throw Bad_motion(fmt::format("{}: face {} (counted from 0) has other corners than in {}", file.string(), *other,
+                                 moved.mesh.empty() ? "the shape" : moved.mesh.string()));
 }
 
 Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices,

@@ -12,7 +12,6 @@ Scene_object object_of(Mesh_file&& file) {
   object.file_vertex = std::move(file.file_vertex);
   object.file_vertices = file.file_vertices;
   object.file_face = std::move(file.file_face);
-  object.joined = std::move(file.joined);
   object.parts = std::move(file.parts);
   object.ignored_extensions = std::move(file.ignored_extensions);
   object.files = std::move(file.files);

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <span>
+#include <system_error>
 #include <utility>
 
 #include "io/files/json_reader.h"
@@ -43,11 +44,20 @@ constexpr std::size_t most_particles = 100'000;
 
 // ---- Meshes ----
 
-Scene_object read_rest(const Json_value& value, Scene_folder& folder) {
-  if (value.exactly_one_of({"mesh", "shape"}) == "shape") return object_of(detail::read_shape(value.at("shape")));
+/// An object without motion, and where its faces come from.
+struct Object_at_rest {
+  Scene_object object;
+  std::filesystem::path mesh = {};  ///< empty: a shape
+  Joined_vertices joined = {};
+};
+
+Object_at_rest read_rest(const Json_value& value, Scene_folder& folder) {
+  if (value.exactly_one_of({"mesh", "shape"}) == "shape") return {object_of(detail::read_shape(value.at("shape")))};
   const Json_value mesh = value.at("mesh");
   const auto file = folder.file(mesh);
-  return object_of(mesh.from_files([&] { return read_mesh(file, folder.limits()); }));
+  auto read = mesh.from_files([&] { return read_mesh(file, folder.limits()); });
+  auto joined = std::move(read.joined);
+  return {.object = object_of(std::move(read)), .mesh = file, .joined = std::move(joined)};
 }
 
 /// Positions in file order. Vertices that no face uses are not in the mesh: they get the position of the first vertex,
@@ -58,6 +68,18 @@ std::vector<Point> rest_positions(const Scene_object& object) {
   std::vector<Point> positions(object.file_vertices, mesh.point(*mesh.vertices().begin()));
   for (const auto v : mesh.vertices()) positions[object.file_vertex[v]] = mesh.point(v);
   return positions;
+}
+
+std::vector<Face_corners> faces_of(const Scene_object& object) {
+  std::vector<Face_corners> faces;
+  for (const auto f : object.mesh.faces()) {
+    const std::size_t i = f.idx();
+    if (i == 0 || object.file_face[i - 1] != object.file_face[i]) faces.emplace_back();
+    ++faces.back().triangles;
+    for (const auto v : object.mesh.vertices_around_face(object.mesh.halfedge(f)))
+      faces.back().vertices.push_back(object.file_vertex[v]);
+  }
+  return faces;
 }
 
 void place_mesh(Surface_mesh& mesh, const Json_value& value, const Placement& placement) {
@@ -108,24 +130,32 @@ Motion read_gltf(const Json_value& value, std::size_t vertices, Scene_folder& fo
   return motion;
 }
 
+/// Files with faces must have those of the mesh that they move: else their vertices are in another order.
+Motion read_sequence(const Json_value& source, const Object_at_rest& rest, Scene_folder& folder) {
+  auto files = folder.sequence(source);
+  const std::size_t vertices = rest.object.file_vertices;
+  Motion motion = read_mesh_sequence(files, vertices, folder.limits());
+  std::error_code ignored;
+  if (rest.mesh.empty() || !equivalent(files.front(), rest.mesh, ignored))
+    check_faces_of_file(files.front(), {rest.mesh, faces_of(rest.object), rest.joined}, folder.limits());
+  return motion;
+}
+
 /// Deformations start from the mesh after its placement; positions from files are transformed as they are read.
-Motion read_motion(const Json_value& value, const Scene_object& object, const Placement& placement,
+Motion read_motion(const Json_value& value, const Object_at_rest& rest, const Placement& placement,
                    Scene_folder& folder) {
   const std::string kind = value.expect_one_key({"pc2", "mdd", "gltf", "keyframes", "sequence", "deform"});
   const Json_value source = value.at(kind);
-  if (kind == "deform") return deform(rest_positions(object), detail::read_deformations(source));
-  const std::size_t vertices = object.file_vertices;
+  if (kind == "deform") return deform(rest_positions(rest.object), detail::read_deformations(source));
+  const std::size_t vertices = rest.object.file_vertices;
   Motion motion = source.from_files([&] {
     if (kind == "pc2") return read_point_cache(folder.file(source), vertices);
     if (kind == "mdd") return read_mdd_cache(folder.file(source), vertices);
     if (kind == "gltf") return read_gltf(source, vertices, folder);
     if (kind == "keyframes") return read_game_motion(folder.file(source), vertices, folder.limits());
-    auto files = folder.sequence(source);
-    if (!object.files.empty()) check_first_frame(files, object.files.front(), folder.limits());
-    return read_mesh_sequence(std::move(files), vertices, folder.limits());
+    return read_sequence(source, rest, folder);
   });
-  if (!object.files.empty()) motion = keep_joined(std::move(motion), object.joined, object.files.front());
-  return placed(std::move(motion), placement);
+  return placed(keep_joined(std::move(motion), rest.joined, rest.mesh), placement);
 }
 
 // ---- Objects and scene ----
@@ -142,7 +172,8 @@ std::vector<std::filesystem::path> each_once(std::initializer_list<std::vector<s
 Scene_object read_object(const Json_value& value, Scene_folder& folder) {
   value.expect_keys({"name", "mesh", "shape", "place", "motion", "particles", "scattered_side", "groups", "meets"});
   const std::string name = value.at("name").text();
-  Scene_object object = read_rest(value, folder);
+  Object_at_rest rest = read_rest(value, folder);
+  Scene_object& object = rest.object;
   object.name = name;
   object.particles = value.count("particles", 1, most_particles, 0);
   if (const auto side = value.find("scattered_side")) object.scattered_side = detail::read_direction(*side);
@@ -153,9 +184,9 @@ Scene_object read_object(const Json_value& value, Scene_folder& folder) {
     place_mesh(object.mesh, *place, placement);
   }
   const auto motion = value.find("motion");
-  object.motion = motion ? read_motion(*motion, object, placement, folder) : deform(rest_positions(object), {});
+  object.motion = motion ? read_motion(*motion, rest, placement, folder) : deform(rest_positions(object), {});
   object.files = each_once({folder.take_found(), std::move(object.files), object.motion.files});
-  return object;
+  return std::move(object);
 }
 
 std::vector<Scene_object> read_objects(const Json_value& value, Scene_folder& folder) {

@@ -11,6 +11,7 @@
 #include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/motion/animation.h"
 #include "lodestone/io/results/animation_output.h"
+#include "lodestone/io/shapes/shapes.h"
 #include "lodestone/mesh/errors.h"
 #include "support/scene_samples.h"
 #include "support/temporary_folder.h"
@@ -55,12 +56,13 @@ class Joined_vertices_of_a_file : public testing::Test {
         posed(motion, frame);
         ADD_FAILURE() << "expected an error";
       } catch (const Bad_motion& error) {
-        EXPECT_EQ(error.what(), path("rest.glb").string() +
-                                    ": vertices 1 and 4 (counted from 0) are one vertex there, since they are at one "
-                                    "place, but frame " +
-                                    std::to_string(frame) +
-                                    " of the motion moves them apart: give the mesh in a format that keeps them, such "
-                                    "as .obj");
+        EXPECT_EQ(error.what(),
+                  path("rest.glb").string() +
+                      ": vertices 1 and 4 (counted from 0) are one vertex there, since they are at one "
+                      "place, but frame " +
+                      std::to_string(frame) +
+                      " of the motion moves them apart: export the mesh in a format that keeps them, such "
+                      "as .obj");
       }
     }
   }
@@ -104,18 +106,120 @@ TEST_F(Joined_vertices_of_a_file, are_kept_apart_by_other_formats) {
   EXPECT_EQ(posed(motion, 2)[4], Point(3, 0, 0));
 }
 
-TEST_F(Joined_vertices_of_a_file, are_not_moved_by_a_sequence_of_other_faces) {
-  write_animation(path("f_#.obj"), two_squares(3, 1));
-  EXPECT_EQ(posed(motion_of_scene("rest.obj", R"({"sequence": "f_#.obj"})"), 2)[4], Point(3, 0, 0));
+TEST_F(Joined_vertices_of_a_file, may_be_apart_by_what_floats_are_rounded) {
+  const auto write = [&](const std::string& name, double step) {
+    Animation animation = two_squares(1, 0);
+    animation.motion.pose = [step](std::size_t, std::span<Point> positions) {
+      two_squares(1, 0).motion.pose(0, positions);
+      positions[4] = Point(1 + step, 0, 0);
+    };
+    write_animation(path(name), animation);
+    return read_animation(path("rest.glb").string() + "+" + path(name).string()).motion;
+  };
+  EXPECT_EQ(posed(write("rounded.pc2", 0x1p-23), 0)[4], Point(1 + 0x1p-23, 0, 0));
+  EXPECT_THROW(posed(write("moved.pc2", 0x1p-16), 0), Bad_motion);
+}
+
+TEST_F(Joined_vertices_of_a_file, are_none_that_no_face_uses) {
+  Animation animation = two_squares(1, 0);
+  animation.faces.resize(2);
+  animation.file_face.resize(2);
+  write_animation(path("half.glb"), animation);
+  EXPECT_TRUE(read_mesh(path("half.glb")).joined.empty());
+  const Motion motion = read_animation(path("half.glb").string() + "+" + path("apart.pc2").string()).motion;
+  EXPECT_EQ(posed(motion, 2)[4], Point(3, 0, 0));
+}
+
+class Sequence_of_a_mesh : public Joined_vertices_of_a_file {
+ protected:
+  /// The last frame's first vertex of the second square.
+  Point moved(const std::string& mesh, const std::string& files) const {
+    return posed(motion_of_scene(mesh, R"({"sequence": ")" + files + "\"}"), 2)[4];
+  }
+  void expect_other(const std::string& mesh, const std::string& files, const std::string& rest) const {
+    try {
+      motion_of_scene(mesh, R"({"sequence": ")" + files + "\"}");
+      ADD_FAILURE() << "expected an error";
+    } catch (const Bad_motion& error) {
+      EXPECT_NE(std::string(error.what()).find(rest), std::string::npos) << error.what();
+    }
+  }
+  /// Writes three frames of the two squares with faces of its own.
+  void write_frames(const std::string& name, double step, const std::string& faces) const {
+    for (int frame = 0; frame < 3; ++frame) {
+      std::vector<Point> positions(8);
+      two_squares(3, step).motion.pose(static_cast<std::size_t>(frame), positions);
+      std::string text;
+      for (const Point& p : positions)
+        text += "v " + std::to_string(p.x()) + " " + std::to_string(p.y()) + " " + std::to_string(p.z()) + "\n";
+      folder.write(name + "_" + std::to_string(frame) + ".obj", text + faces);
+    }
+  }
+};
+
+TEST_F(Sequence_of_a_mesh, may_have_its_faces_in_other_forms) {
+  write_frames("same", 1, "f 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\n");
+  write_frames("turned", 1, "f 2 3 1\nf 4 1 3\nf 7 5 6\nf 7 8 5\n");
+  write_frames("quads", 1, "f 1 2 3 4\nf 5 6 7 8\n");
+  for (const char* files : {"same_#.obj", "turned_#.obj", "quads_#.obj"})
+    EXPECT_EQ(moved("rest.obj", files), Point(3, 0, 0)) << files;
+  folder.write("quads.obj",
+               "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nf 1 2 3 4\nf 5 6 7 8\n");
+  write_frames("other_way", 1, "f 1 2 4\nf 2 3 4\nf 5 6 8\nf 6 7 8\n");
+  EXPECT_EQ(moved("quads.obj", "other_way_#.obj"), Point(3, 0, 0));
+}
+
+TEST_F(Sequence_of_a_mesh, must_have_its_faces) {
+  write_frames("swapped", 1, "f 5 6 7\nf 5 7 8\nf 1 2 3\nf 1 3 4\n");
+  write_frames("fewer", 1, "f 1 2 3\nf 1 3 4\nf 5 6 7\n");
+  write_frames("more", 1, "f 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\nf 5 7 8\n");
+  write_frames("mixed", 1, "f 1 2 3 4\nf 5 6 7\nf 1 7 8\n");
+  const auto other = [](const std::string& face) {
+    return ": face " + face + " (counted from 0) has other corners than in ";
+  };
+  expect_other("rest.obj", "swapped_#.obj", "swapped_0.obj" + other("0"));
+  expect_other("rest.obj", "fewer_#.obj", "fewer_0.obj" + other("2"));
+  expect_other("rest.obj", "more_#.obj", "more_0.obj" + other("4"));
+  expect_other("rest.obj", "mixed_#.obj", "mixed_0.obj" + other("2"));
+}
+
+TEST_F(Sequence_of_a_mesh, may_move_joined_vertices_together_and_not_apart) {
+  const std::string faces = "f 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\n";
+  write_frames("together", 0, faces);
+  write_frames("parted", 1, faces);
+  EXPECT_EQ(moved("rest.glb", "together_#.obj"), Point(1, 0, 0));
+  expect_parted(motion_of_scene("rest.glb", R"({"sequence": "parted_#.obj"})"));
+}
+
+TEST_F(Sequence_of_a_mesh, must_have_the_faces_of_a_shape) {
+  const Surface_mesh ball = icosphere(1);
+  const auto write = [&](const std::string& name, bool reversed) {
+    const auto count = static_cast<std::uint32_t>(ball.number_of_vertices());
+    const auto number = [&](std::uint32_t vertex) { return reversed ? count - 1 - vertex : vertex; };
+    std::string text = "OFF\n" + std::to_string(count) + " " + std::to_string(ball.number_of_faces()) + " 0\n";
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Point& p = ball.point(Surface_mesh::Vertex_index(number(i)));
+      text += std::to_string(p.x()) + " " + std::to_string(p.y()) + " " + std::to_string(p.z()) + "\n";
+    }
+    for (const auto f : ball.faces()) {
+      text += "3";
+      for (const auto v : ball.vertices_around_face(ball.halfedge(f))) text += " " + std::to_string(number(v));
+      text += "\n";
+    }
+    folder.write(name, text);
+  };
+  write("same_0.off", false);
+  write("reversed_0.off", true);
+  const auto scene = [&](const std::string& files) {
+    return read(folder,
+                with_object(R"("shape": {"icosphere": {"frequency": 1}}, "motion": {"sequence": ")" + files + "\"}"));
+  };
+  EXPECT_EQ(scene("same_#.off").objects[0].motion.frames, 1U);
   try {
-    motion_of_scene("rest.glb", R"({"sequence": "f_#.obj"})");
+    scene("reversed_#.off");
     ADD_FAILURE() << "expected an error";
   } catch (const Bad_motion& error) {
-    EXPECT_NE(std::string(error.what())
-                  .find(path("f_0.obj").string() + ": face 2 (counted from 0) has other corners than in " +
-                        path("rest.glb").string()),
-              std::string::npos)
-        << error.what();
+    EXPECT_NE(std::string(error.what()).find("has other corners than in the shape"), std::string::npos) << error.what();
   }
 }
 

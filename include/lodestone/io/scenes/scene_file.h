@@ -25,7 +25,6 @@ struct Scene_object {
   std::vector<std::uint32_t> file_vertex;         ///< per mesh vertex: its index in the positions of `motion`
   std::size_t file_vertices = 0;                  ///< number of those positions
   std::vector<std::uint32_t> file_face;           ///< per mesh face: its face in the file, as in Mesh_file
-  Joined_vertices joined = {};                    ///< as in Mesh_file
   File_parts parts = {};                          ///< that the mesh's file names
   std::set<std::string> ignored_extensions = {};  ///< as in Mesh_file
   Motion motion;                                  ///< also set for an object that never moves
