@@ -104,5 +104,10 @@ TEST(Attractors, are_gone_after_clear) {
   EXPECT_EQ(force_at(attractors, {0, 0, 0}), 0);
 }
 
+TEST(Effective_radius, is_the_longest_distance_wherever_in_the_list_its_ends_are) {
+  const std::vector<Eigen::Vector3d> particles{{0, 0, 0}, {3, 0, 0}, {-4, 0, 0}, {1, 1, 0}};
+  EXPECT_EQ(effective_radius(particles), 7);
+}
+
 }  // namespace
 }  // namespace lodestone

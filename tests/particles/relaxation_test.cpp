@@ -406,5 +406,69 @@ TEST(Relaxation, compares_the_steps_of_a_particle_at_rest_once) {
   EXPECT_LE(reads, 2 * d.steps.from(0).size());
 }
 
+/// Objects with edges of different lengths, whose forces reach differently far.
+std::deque<Walker> uneven_crowd(std::uint64_t seed, double reach) {
+  auto walkers = crowd(seed, reach);
+  for (std::size_t o = 0; o < walkers.size(); ++o) {
+    for (auto& point : walkers[o].points) point.z() *= point.z() * point.z() / 4;
+    walkers[o].particles.effective_radius = reach * static_cast<double>(1 + o % 3);
+    walkers[o].read();
+  }
+  return walkers;
+}
+
+TEST(Relaxation, leaves_particles_at_rest_alone_where_forces_reach_differently_far_and_steps_differ_in_length) {
+  for (const bool siblings_repel : {false, true})
+    for (const double reach : {0.3, 0.6, 1.2})
+      for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        auto resting = uneven_crowd(seed, reach), plain = uneven_crowd(seed, reach);
+        const Relaxation found = relax_all(pointers(resting), siblings_repel);
+        const Relaxation expected = relax_all(pointers(plain), siblings_repel, relax_without_rest<Reader>);
+        EXPECT_EQ(found.iterations, expected.iterations);
+        EXPECT_EQ(found.moves, expected.moves);
+        for (std::size_t o = 0; o < resting.size(); ++o) EXPECT_EQ(resting[o].particles.at, plain[o].particles.at);
+      }
+}
+
+/// Relaxes objects each of whose particles feels one particle of each other object.
+Relaxation relax_pulled(std::deque<Walker>& walkers, Relax run) {
+  const auto count = static_cast<std::uint32_t>(walkers.size());
+  std::vector<std::vector<std::uint32_t>> near(count);
+  std::vector<std::vector<Pull>> pulls(count);
+  std::vector<Walking_object<Reader>> objects;
+  std::vector<std::size_t> counts;
+  for (std::uint32_t o = 0; o < count; ++o) {
+    const auto particles = static_cast<std::uint32_t>(walkers[o].particles.at.size());
+    for (std::uint32_t p = 0; p < particles; ++p)
+      for (std::uint32_t other = 0; other < count; ++other)
+        if (other != o) pulls[o].push_back({.particle = p, .object = other, .by = (5 * p + o) % particles});
+    for (std::uint32_t other = 0; other < count; ++other)
+      if (other != o) near[o].push_back(other);
+    objects.push_back({.particles = &walkers[o].particles,
+                       .steps = &walkers[o].steps,
+                       .reader = &walkers[o].reader,
+                       .opponents = near[o],
+                       .pulls = std::span<const Pull>(pulls[o])});
+    counts.push_back(particles);
+  }
+  Relaxation_scratch scratch;
+  scratch.reserve(counts);
+  return run(std::span<const Walking_object<Reader>>(objects), scratch);
+}
+
+TEST(Relaxation, leaves_particles_that_are_pulled_alone_and_ends_as_if_it_did_not) {
+  std::size_t moves = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    auto resting = crowd(seed, 1), plain = crowd(seed, 1);
+    const Relaxation found = relax_pulled(resting, relax_alone);
+    const Relaxation expected = relax_pulled(plain, relax_without_rest<Reader>);
+    EXPECT_EQ(found.iterations, expected.iterations);
+    EXPECT_EQ(found.moves, expected.moves);
+    for (std::size_t o = 0; o < resting.size(); ++o) EXPECT_EQ(resting[o].particles.at, plain[o].particles.at);
+    moves += found.moves;
+  }
+  EXPECT_GT(moves, 1000U);
+}
+
 }  // namespace
 }  // namespace lodestone

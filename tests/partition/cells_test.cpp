@@ -72,5 +72,24 @@ TEST(Cells, stay_empty_where_vectors_are_the_same) {
   EXPECT_EQ(codes, (Feature_vectors(1, 1) << 2).finished());
 }
 
+TEST(Cells, that_are_dropped_leave_the_code_vectors_of_the_others) {
+  Feature_vectors codes = (Feature_vectors(4, 1) << 1, 2, 3, 4).finished();
+  Assignment assignment;
+  assignment.cell_sizes = {5, 0, 0, 7};
+  EXPECT_EQ(drop_empty_cells(assignment, codes), (std::vector<Region_index>{0, 1, 1, 1}));
+  EXPECT_EQ(codes, (Feature_vectors(2, 1) << 1, 4).finished());
+}
+
+TEST(Cells, that_are_empty_take_from_the_widest_that_is_left) {
+  const Feature_vectors vectors = (Feature_vectors(5, 1) << 5, 5.5, 13, 18, 26).finished();
+  Feature_vectors codes = (Feature_vectors(4, 1) << 5, 22, 100, 200).finished();
+  Assignment assignment;
+  Workers workers(1);
+  assign_plain(vectors, codes, assignment, workers);
+  ASSERT_EQ(assignment.labels, (std::vector<Region_index>{0, 0, 0, 1, 1}));
+  EXPECT_TRUE(reseed_empty_cells(vectors, codes, assignment));
+  EXPECT_EQ(assignment.labels, (std::vector<Region_index>{0, 0, 2, 3, 1}));
+}
+
 }  // namespace
 }  // namespace lodestone

@@ -170,5 +170,15 @@ TEST(Particle_count, options_out_of_range_are_refused) {
   EXPECT_THROW(spheres_of(cube(2), {.most_parts = 0}), Bad_argument);
 }
 
+TEST(Particle_count, an_ellipsoid_is_no_sphere_and_is_counted_by_its_shadow) {
+  auto mesh = sphere(10);
+  deform(mesh, [](const Point& p) { return Point(2 * p.x(), p.y(), p.z()); });
+  const Numbered_mesh numbered(mesh);
+  EXPECT_NEAR(bounding_sphere(numbered.positions).roundness, 0.5, 1e-9);
+  const auto spheres = sphere_collection(numbered.graph, numbered.positions, numbered.faces, {});
+  ASSERT_EQ(spheres.size(), 1U);
+  EXPECT_EQ(particle_count(spheres, radius_range(std::vector<double>(20, spheres[0].radius))), 14U);
+}
+
 }  // namespace
 }  // namespace lodestone

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "lodestone/mesh/errors.h"
@@ -156,6 +157,27 @@ TEST(Partition_measures, a_region_or_particle_at_vertices_without_faces_only_is_
   EXPECT_NO_THROW(measured(mesh, partition));
   partition.particles[1] = 4;
   EXPECT_THROW(measured(mesh, partition), Bad_argument);
+}
+
+TEST(Partition_measures, a_face_counts_for_the_region_of_each_of_its_corners) {
+  // Two squares at a right angle, one column of vertices in region 0, two in region 1: region 1 has three corners of
+  // the first square and six of the second, so its mean normal is atan(2) from the one and atan(1/2) from the other.
+  auto mesh = grid(3, 2);
+  deform(mesh, [](const Point& p) { return p.x() > 1.5 ? Point(1, p.y(), 1) : p; });
+  const auto m = measured(mesh, given({0, 1, 1, 0, 1, 1}, 2));
+  const double from_first = std::atan(2.0), from_second = std::atan(0.5);
+  const double mean_square = (3 * from_first * from_first + 6 * from_second * from_second) / 12;
+  EXPECT_NEAR(m.normal_deviation, std::sqrt(mean_square) * 180 / std::numbers::pi, 1e-9);
+}
+
+TEST(Partition_measures, no_path_of_a_geodesic_radius_leaves_its_region) {
+  // Region 1 is a wall into a grid of 3 x 5 vertices; region 0 goes round its end.
+  std::vector<Region_index> labels(15, 0);
+  for (const std::size_t v : {1, 4, 7, 10}) labels[v] = 1;
+  const auto m = measured(grid(3, 5), given(std::move(labels), 2));
+  // Three steps up, one along the diagonal, one right, four down; the farthest vertex is sqrt(5) from the mean.
+  const double round_the_wall = 3 + std::sqrt(2) + 1 + 4, along_the_wall = 3;
+  EXPECT_NEAR(m.geodesic_radius, (round_the_wall + along_the_wall) / 2 / std::sqrt(5), 1e-12);
 }
 
 }  // namespace

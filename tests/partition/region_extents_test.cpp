@@ -283,5 +283,31 @@ TEST(Stretched_area, reads_no_more_than_sixteen_vertices_besides_the_home) {
   }
 }
 
+TEST(Region_extent, has_its_first_direction_along_the_given_axis) {
+  const Numbered_mesh mesh(grid(11, 5));
+  const std::vector<Region_index> labels(55, 0);
+  const auto border = open_border(55, mesh.faces);
+  const Live_positions position(mesh.positions.data());
+  const Eigen::Vector3d up(0, 0, 1);
+  const auto lengths = [&](const Eigen::Vector3d& axis) {
+    const auto extent =
+        region_extents({mesh.graph, labels, border, position}, std::vector{Extent_start{2 * 11 + 3, up, axis}}).front();
+    std::vector<double> result;
+    for (const auto& path : extent.paths) result.push_back(path.length);
+    return result;
+  };
+  EXPECT_EQ(lengths({5, 0, 1}), (std::vector<double>{7, 3, 2, 2}));  // only its projection counts
+  EXPECT_EQ(lengths({-1, 0, 0}), (std::vector<double>{3, 7, 2, 2}));
+  EXPECT_EQ(lengths({0, 1, 0}), (std::vector<double>{2, 2, 3, 7}));  // Y is up x X
+  EXPECT_EQ(lengths({0, -1, 0}), (std::vector<double>{2, 2, 7, 3}));
+}
+
+TEST(Angle_to_axis, turns_a_vector_around_the_normal_to_where_x_is) {
+  const Eigen::Vector3d up(0, 0, 1), needle(1, 2, 0.5);
+  const Eigen::Vector3d turned = Eigen::AngleAxisd(angle_to_axis(up, needle), up) * needle;
+  EXPECT_NEAR(turned.x(), std::sqrt(5), 1e-12);
+  EXPECT_NEAR(turned.y(), 0, 1e-12);
+}
+
 }  // namespace
 }  // namespace lodestone

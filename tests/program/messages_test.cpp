@@ -90,7 +90,7 @@ TEST_F(Messages, about_a_number_that_is_not_finite_or_not_in_its_range_name_its_
 }
 
 TEST_F(Messages, name_the_option_that_no_file_takes) {
-  expect_error(run_program({"convert", mesh, path("b.obj"), "--fps", "50"}), 2, "b.obj: --fps needs glTF to read, or");
+  expect_error(run_program({"convert", mesh, path("b.obj"), "--fps", "50"}), 2, "b.obj: --fps needs a glTF file to read, or");
   expect_success(run_program({"convert", mesh, path("b.glb"), "--fps", "50"}));
   expect_success(run_program({"convert", mesh, path("b.mdd"), "--fps", "50", "--quiet"}));
   expect_success(run_program({"convert", path("b.glb"), path("c.obj"), "--fps", "50", "--quiet"}));

@@ -288,5 +288,26 @@ TEST(Region_anchors, that_are_loaded_share_no_faces) {
   EXPECT_EQ(refusal_of(object, nodes, twice), shared);
 }
 
+/// All distances together grow by the square root of (4 * 4 + 1 + 1) / 3, or 2.4: too little along the axis.
+TEST(Region_anchors, a_pull_in_one_direction_stretches_the_surface_nearly_as_much) {
+  for (const std::size_t axis : {0, 1, 2}) {
+    Anchored_object object(icosphere(6));
+    object.move_to(pulled(object.rest(), axis, 4));
+    EXPECT_GT(object.tree().stretch(), 0.8 * 4) << axis;
+    EXPECT_LE(object.tree().stretch(), 4 * (1 + 1e-12)) << axis;
+    expect_box_around(object);
+  }
+}
+
+TEST(Region_anchors, a_surface_that_was_stretched_in_the_last_frame_is_not_in_this_one) {
+  Anchored_object object(icosphere(6));
+  object.move_to(placed(object.rest(), 3));
+  EXPECT_NEAR(object.tree().stretch(), 3, 1e-12);
+  const Box before = object.regions().box();
+  object.move_to(object.rest());
+  EXPECT_NEAR(object.tree().stretch(), 1, 1e-12);
+  EXPECT_LT(object.regions().box().sizes().maxCoeff(), 0.5 * before.sizes().maxCoeff());
+}
+
 }  // namespace
 }  // namespace lodestone

@@ -365,7 +365,7 @@ void fit(Relaxation_scratch& scratch, std::span<const Walking_object<Reader>> ob
 /// (10) to (12); R_eff is the larger of the two objects'. All particles read the positions from before the iteration.
 /// Ties go to the lowest vertex index. A particle stays if it feels no force, or if it is at r = 0. The particles are
 /// relaxed when fewer than R_min = N / 10 moved in each object; the paper has R_min "about ten times smaller than" N.
-/// R_max, the largest of all objects', limits the iterations; see `hop_diameter`.
+/// R_max, the largest of the objects that have opponents, limits the iterations; see `hop_diameter`.
 ///
 /// Instead of all particles of near objects, a particle can feel those that `Walking_object::pulls` names.
 ///
