@@ -35,7 +35,7 @@ void compiled_with_glibcxx_debug();
 #else
 void compiled_without_glibcxx_debug();
 #endif
-/// Named by what makes a detector.
+/// Calls the one that fits to how the caller is compiled. Whatever makes a detector calls this.
 inline void need_same_containers() {
 #if defined(__GLIBCXX__) && defined(_GLIBCXX_DEBUG)
   compiled_with_glibcxx_debug();

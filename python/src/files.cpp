@@ -160,7 +160,7 @@ void write_animation_file(const Path& path, const py::object& frames, const py::
     return write(path, frames, given, {.frames_per_second = frames_per_second.value_or(usual_rate)});
   const Animation& read = *frames.cast<const Python_animation&>().animation;
   const double rate = frames_per_second.value_or(read.frames_per_second > 0 ? read.frames_per_second : usual_rate);
-  const bool is_positive = rate > 0 && std::isfinite(rate);  // others are refused there
+  const bool is_positive = rate > 0 && std::isfinite(rate);  // write_animation refuses others
   write(path, frames, given,
         {.frames_per_second = rate, .start = is_positive ? start_at(read.motion, rate) : 0});
 }

@@ -10,8 +10,7 @@ namespace lodestone {
 
 namespace {
 
-/// To read all of such a surface takes less time than a pair of objects that boxes around anchors would let pass, and
-/// about as long as to read the anchors of 20 regions or more.
+/// To read all of such a surface takes less time than a pair of objects that boxes around anchors would let pass.
 bool is_small(const Tree_on_demand& tree) { return tree.vertex_count() <= 256; }
 
 }  // namespace

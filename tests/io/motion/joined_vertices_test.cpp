@@ -174,6 +174,7 @@ TEST_F(Sequence_of_a_mesh, must_have_its_faces) {
   write_frames("fewer", 1, "f 1 2 3\nf 1 3 4\nf 5 6 7\n");
   write_frames("more", 1, "f 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\nf 5 7 8\n");
   write_frames("mixed", 1, "f 1 2 3 4\nf 5 6 7\nf 1 7 8\n");
+  write_frames("quads", 1, "f 5 6 7 8\nf 1 2 3 4\n");
   const auto other = [](const std::string& face) {
     return ": face " + face + " (counted from 0) has other corners than in ";
   };
@@ -181,6 +182,7 @@ TEST_F(Sequence_of_a_mesh, must_have_its_faces) {
   expect_other("rest.obj", "fewer_#.obj", "fewer_0.obj" + other("2"));
   expect_other("rest.obj", "more_#.obj", "more_0.obj" + other("4"));
   expect_other("rest.obj", "mixed_#.obj", "mixed_0.obj" + other("2"));
+  expect_other("rest.obj", "quads_#.obj", "quads_0.obj" + other("0"));
 }
 
 TEST_F(Sequence_of_a_mesh, may_move_joined_vertices_together_and_not_apart) {
