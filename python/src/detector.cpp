@@ -202,8 +202,14 @@ void Python_detector::set_vertices(Object_id object, const py::object& vertices)
   const auto title = look([&](auto&) { return title_of(object); });
   auto given = naming_mesh(title, [&] { return std::make_unique<Live_vertices>(vertices); });
   change([&](auto& detector) {
-    change_object(object, [&](auto& target) { target.exchange(given); });
-    detector.update(object);
+    const auto exchange = [&] { change_object(object, [&](auto& target) { target.exchange(given); }); };
+    exchange();
+    try {
+      detector.update(object);
+    } catch (...) {
+      exchange();
+      throw;
+    }
   });
   // With the GIL again: the former array goes.
 }

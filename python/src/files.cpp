@@ -42,7 +42,7 @@ void check_used(const Path& path, const Animation& read, const std::variant<std:
   const bool chosen = animation != std::variant<std::size_t, std::string>(std::size_t{0});
   if (read.kind != "gltf" && (chosen || frames_per_second))
     throw Bad_argument(path.string() + ": animation and frames_per_second are for glTF files");
-  if (chosen && read.motion.frames == 1 && !read.motion.resampled)
+  if (chosen && read.motion.animations.names.empty())
     throw Bad_argument(path.string() + ": the file has no animations");
 }
 

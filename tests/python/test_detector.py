@@ -76,6 +76,25 @@ def test_an_array_lives_as_long_as_its_object():
     assert detector.detect().collides and junk
 
 
+def test_set_vertices_that_fails_leaves_the_array():
+    for mode in ("exact", "particles"):
+        detector = lodestone.Detector(mode=mode)
+        a = detector.add(cube(), name="box")
+        detector.add(cube().moved(0.5))
+        assert detector.detect().collides
+        broken = cube().vertices.copy()
+        broken[:] = np.nan
+        if mode == "particles":  # reads positions at once
+            with pytest.raises(lodestone.BadMesh, match="not finite"):
+                detector.set_vertices(a, broken)
+        else:
+            detector.set_vertices(a, broken)
+            with pytest.raises(lodestone.BadMesh, match="not finite"):
+                detector.detect()
+            detector.set_vertices(a, cube().vertices)
+        assert detector.detect().collides
+
+
 def test_set_vertices_takes_another_array():
     detector = lodestone.Detector()
     a = detector.add(cube(), name="box")

@@ -464,3 +464,41 @@ def test_a_page_refuses_what_changed_after_the_frame():
         frame.show()
     with pytest.raises(IndexError, match="there is no object 7"):
         lodestone.read_scene(root / "data" / "scenes" / "teapot_sphere_1.json").groups(7)
+
+
+def write_moved_triangle(path, times, distances, names=("walk",)):
+    """A triangle that each animation moves along x."""
+    keys = np.array([[x, 0, 0] for x in distances], np.float32)
+    blocks = [np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32), np.array(times, np.float32), keys]
+    offsets = np.cumsum([0] + [block.nbytes for block in blocks])
+    data = base64.b64encode(b"".join(block.tobytes() for block in blocks)).decode()
+    path.write_text(json.dumps({
+        "asset": {"version": "2.0"},
+        "buffers": [{"uri": "data:application/octet-stream;base64," + data, "byteLength": int(offsets[-1])}],
+        "bufferViews": [{"buffer": 0, "byteOffset": int(offset), "byteLength": block.nbytes}
+                        for offset, block in zip(offsets, blocks)],
+        "accessors": [{"bufferView": view, "componentType": 5126, "count": len(block), "type": kind,
+                       "min": block.min(axis=0).reshape(-1).tolist(), "max": block.max(axis=0).reshape(-1).tolist()}
+                      for view, (block, kind) in enumerate(zip(blocks, ("VEC3", "SCALAR", "VEC3")))],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "scene": 0,
+        "animations": [{"name": name, "samplers": [{"input": 1, "output": 2}],
+                        "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}
+                       for name in names]}))
+    return path
+
+
+def test_an_animation_of_one_key_is_chosen_at_any_rate(tmp_path):
+    path = write_moved_triangle(tmp_path / "stands.gltf", [0], [2], ("first", "second"))
+    for rate in (None, 30):
+        assert lodestone.read_animation(path, animation="second", frames_per_second=rate).frames == 1
+    lodestone.write_mesh(tmp_path / "still.glb", sphere(2))
+    with pytest.raises(lodestone.BadArgument, match="the file has no animations"):
+        lodestone.read_animation(tmp_path / "still.glb", animation=1)
+
+
+def test_what_stands_still_does_not_change_the_rate_of_others(tmp_path):
+    walk = write_moved_triangle(tmp_path / "walk.gltf", np.arange(25) / 24, np.arange(25))
+    stand = write_moved_triangle(tmp_path / "stand.gltf", [0], [50])
+    assert lodestone.read_scene([walk]).frames == 25
+    assert lodestone.read_scene([walk, stand]).frames == 25

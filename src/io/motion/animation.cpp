@@ -100,6 +100,7 @@ Animation cache(const fs::path& file, const fs::path& mesh, const Mesh_file_opti
   }
   const auto read = header.format == Cache_format::pc2 ? read_point_cache : read_mdd_cache;
   result.motion = keep_joined(read(file, result.vertices), joined, mesh);
+  result.motion.joined = std::move(joined);
   return result;
 }
 

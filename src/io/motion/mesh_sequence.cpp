@@ -32,6 +32,7 @@ Polygon_soup read_frame(const std::filesystem::path& file, const Mesh_file_optio
 struct First_frame {
   std::filesystem::path file;
   Faces faces;
+  bool joins = false;  ///< whether the reader has joined vertices
 };
 
 void check_face_count(const std::filesystem::path& file, const Faces& faces, const First_frame& first) {
@@ -40,12 +41,14 @@ void check_face_count(const std::filesystem::path& file, const Faces& faces, con
                                  first.file.string(), first.faces.size()));
 }
 
-void check_same_faces(const std::filesystem::path& file, const Faces& faces, const First_frame& first) {
-  check_face_count(file, faces, first);
-  const auto differing = std::ranges::mismatch(faces, first.faces).in1;
-  if (differing != faces.end())
-    throw Bad_motion(fmt::format("{}: face {} (counted from 0) has other corners than in {}", file.string(),
-                                 differing - faces.begin(), first.file.string()));
+void check_same_faces(const std::filesystem::path& file, const Polygon_soup& posed, const First_frame& first) {
+  check_face_count(file, posed.faces, first);
+  const auto differing = std::ranges::mismatch(posed.faces, first.faces).in1;
+  if (differing == posed.faces.end()) return;
+  const bool joins = first.joins || !posed.joined.empty();
+  throw Bad_motion(fmt::format("{}: face {} (counted from 0) has other corners than in {}{}", file.string(),
+                               differing - posed.faces.begin(), first.file.string(),
+                               joins ? ": in each of these files, vertices that are alike are joined" : ""));
 }
 
 void check_vertices(const std::filesystem::path& file, std::size_t found, std::size_t expected) {
@@ -86,14 +89,16 @@ std::size_t first_of(const Joined_vertices& joined, std::size_t vertex) {
   return joined.empty() ? vertex : joined[vertex];
 }
 
-/// Whether all vertices of one face are vertices of another.
-bool lies_in(const Face_corners& face, const Face_corners& whole) {
-  return std::ranges::all_of(
-      face.vertices, [&](std::size_t v) { return std::ranges::find(whole.vertices, v) != whole.vertices.end(); });
+/// Each vertex once, ascending.
+std::vector<std::size_t> as_set(std::vector<std::size_t> vertices) {
+  std::ranges::sort(vertices);
+  const auto repeated = std::ranges::unique(vertices);
+  vertices.erase(repeated.begin(), repeated.end());
+  return vertices;
 }
 
 /// Compares faces one after the other. Where one has more triangles than that of the other file, the next ones there
-/// must be its parts.
+/// must be its parts: have as many triangles, and the same vertices. O(n log n) in the corners of all faces.
 /// @return the first of `faces` that differs; none if all are the same
 std::optional<std::size_t> first_other(const std::vector<Face_corners>& faces,
                                        const std::vector<Face_corners>& others) {
@@ -104,9 +109,12 @@ std::optional<std::size_t> first_other(const std::vector<Face_corners>& faces,
     const auto& parts = is_whole ? others : faces;
     std::size_t &at = is_whole ? other : face, left = whole.triangles;
     const std::size_t found = face;
-    if (parts[at].triangles == left && !lies_in(whole, parts[at])) return found;
-    for (; left > 0; left -= parts[at++].triangles)
-      if (at == parts.size() || parts[at].triangles > left || !lies_in(parts[at], whole)) return found;
+    std::vector<std::size_t> of_parts;
+    for (; left > 0; left -= parts[at++].triangles) {
+      if (at == parts.size() || parts[at].triangles > left) return found;
+      of_parts.insert(of_parts.end(), parts[at].vertices.begin(), parts[at].vertices.end());
+    }
+    if (as_set(std::move(of_parts)) != as_set(whole.vertices)) return found;
     ++(is_whole ? face : other);
   }
   if (face == faces.size() && other == others.size()) return std::nullopt;
@@ -134,7 +142,8 @@ Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t 
   check_files(files);
   auto soup = read_frame(files.front(), limits);
   check_vertices(files.front(), soup.points.size(), vertices);
-  const auto first = std::make_shared<const First_frame>(First_frame{files.front(), std::move(soup.faces)});
+  const auto first = std::make_shared<const First_frame>(
+      First_frame{.file = files.front(), .faces = std::move(soup.faces), .joins = !soup.joined.empty()});
 
   const auto frames = files.size();
   const auto pose = [files = std::move(files), first, vertices, limits](std::size_t frame, std::span<Point> positions) {
@@ -145,7 +154,7 @@ Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t 
     check_vertices(files[frame], vertices, positions.size());
     if (is_stl(first->file) && is_stl(files[frame])) return pose_by_corners(files[frame], posed, *first, positions);
     check_vertices(files[frame], posed.points.size(), vertices);
-    check_same_faces(files[frame], posed.faces, *first);
+    check_same_faces(files[frame], posed, *first);
     std::ranges::copy(posed.points, positions.begin());
   };
   return {.frames = frames, .pose = pose};

@@ -61,12 +61,13 @@ Object_at_rest read_rest(const Json_value& value, Scene_folder& folder) {
 }
 
 /// Positions in file order. Vertices that no face uses are not in the mesh: they get the position of the first vertex,
-/// which does not affect the bounding box.
-std::vector<Point> rest_positions(const Scene_object& object) {
+/// which does not affect the bounding box. Joined vertices are where the one is that stands for them.
+std::vector<Point> rest_positions(const Scene_object& object, const Joined_vertices& joined) {
   const auto& mesh = object.mesh;
   if (mesh.is_empty()) return std::vector<Point>(object.file_vertices, Point(0, 0, 0));
   std::vector<Point> positions(object.file_vertices, mesh.point(*mesh.vertices().begin()));
   for (const auto v : mesh.vertices()) positions[object.file_vertex[v]] = mesh.point(v);
+  for (std::size_t vertex = 0; vertex < joined.size(); ++vertex) positions[vertex] = positions[joined[vertex]];
   return positions;
 }
 
@@ -146,7 +147,7 @@ Motion read_motion(const Json_value& value, const Object_at_rest& rest, const Pl
                    Scene_folder& folder) {
   const std::string kind = value.expect_one_key({"pc2", "mdd", "gltf", "keyframes", "sequence", "deform"});
   const Json_value source = value.at(kind);
-  if (kind == "deform") return deform(rest_positions(rest.object), detail::read_deformations(source));
+  if (kind == "deform") return deform(rest_positions(rest.object, rest.joined), detail::read_deformations(source));
   const std::size_t vertices = rest.object.file_vertices;
   Motion motion = source.from_files([&] {
     if (kind == "pc2") return read_point_cache(folder.file(source), vertices);
@@ -184,7 +185,9 @@ Scene_object read_object(const Json_value& value, Scene_folder& folder) {
     place_mesh(object.mesh, *place, placement);
   }
   const auto motion = value.find("motion");
-  object.motion = motion ? read_motion(*motion, rest, placement, folder) : deform(rest_positions(object), {});
+  object.motion =
+      motion ? read_motion(*motion, rest, placement, folder) : deform(rest_positions(object, rest.joined), {});
+  if (!rest.joined.empty()) object.motion.joined = std::move(rest.joined);
   object.files = each_once({folder.take_found(), std::move(object.files), object.motion.files});
   return std::move(object);
 }

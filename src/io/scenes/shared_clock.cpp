@@ -26,7 +26,8 @@ double least_of(const std::vector<double>& numbers) { return *std::min_element(n
 void share_clock(std::span<Scene_object> objects) {
   std::vector<double> rates, starts, given_rates, given_starts;
   for (const auto& object : objects) {
-    if (object.motion.frames_per_second == 0) continue;
+    // What stands still has no rate that matters.
+    if (object.motion.frames_per_second == 0 || (object.motion.resampled && object.motion.frames == 1)) continue;
     rates.push_back(object.motion.frames_per_second);
     starts.push_back(object.motion.start);
     if (object.motion.resampled) continue;
@@ -45,6 +46,7 @@ void share_clock(std::span<Scene_object> objects) {
     if (!object.motion.resampled) continue;
     auto motion = object.motion.resampled(rate, start);
     motion.animations = std::move(object.motion.animations);  // they say whether a scene has chosen one
+    motion.joined = std::move(object.motion.joined);
     object.motion = std::move(motion);
   }
 }

@@ -100,6 +100,32 @@ TEST_F(Joined_vertices_of_a_file, may_be_moved_together) {
   EXPECT_TRUE(own.computed);
 }
 
+TEST_F(Joined_vertices_of_a_file, are_at_one_place_in_a_scene_that_does_not_read_their_motion) {
+  const auto motion_with = [&](const std::string& rest) {
+    return read(folder, R"({"frames": 20, "objects": [{"name": "a", "mesh": "rest.glb", )" + rest + "}]}")
+        .objects[0]
+        .motion;
+  };
+  const auto at_rest = posed(motion_with(R"("place": {"scale": 2})"), 0);
+  const auto moved = posed(motion_with(R"("motion": {"deform": [{"travel": {"way_points": [
+      {"frame": 0, "at": [0, 0, 0]}, {"frame": 10, "at": [10, 0, 0]}]}}]})"),
+                           10);
+  const Kernel::Vector_3 corners[]{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                   {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}};
+  for (std::size_t vertex = 0; vertex < 8; ++vertex) {
+    EXPECT_EQ(at_rest[vertex] - at_rest[0], 2 * corners[vertex]) << vertex;
+    EXPECT_EQ(moved[vertex] - moved[0], corners[vertex]) << vertex;
+  }
+}
+
+TEST_F(Joined_vertices_of_a_file, are_told_of_every_motion) {
+  const Joined_vertices joined{0, 1, 2, 3, 1, 5, 6, 2};
+  EXPECT_EQ(read_animation(path("rest.glb")).motion.joined, joined);
+  EXPECT_EQ(read_animation(path("rest.glb").string() + "+" + path("still.pc2").string()).motion.joined, joined);
+  EXPECT_EQ(motion_of_scene("rest.glb", R"({"pc2": "still.pc2"})").joined, joined);
+  EXPECT_TRUE(motion_of_scene("rest.obj", R"({"pc2": "still.pc2"})").joined.empty());
+}
+
 TEST_F(Joined_vertices_of_a_file, are_kept_apart_by_other_formats) {
   const Motion motion = read_animation(path("rest.obj").string() + "+" + path("apart.pc2").string()).motion;
   EXPECT_EQ(posed(motion, 2)[1], Point(1, 0, 0));
@@ -183,6 +209,12 @@ TEST_F(Sequence_of_a_mesh, must_have_its_faces) {
   expect_other("rest.obj", "more_#.obj", "more_0.obj" + other("4"));
   expect_other("rest.obj", "mixed_#.obj", "mixed_0.obj" + other("2"));
   expect_other("rest.obj", "quads_#.obj", "quads_0.obj" + other("0"));
+  // The polygon has a corner that none of its two triangles has.
+  folder.write("thin.obj",
+               "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\n"
+               "f 4 1 1\nf 1 1 4\nf 5 6 7\nf 5 7 8\n");
+  write_frames("twice", 1, "f 4 1 2 1\nf 5 6 7\nf 5 7 8\n");
+  expect_other("thin.obj", "twice_#.obj", "twice_0.obj" + other("0"));
 }
 
 TEST_F(Sequence_of_a_mesh, may_move_joined_vertices_together_and_not_apart) {

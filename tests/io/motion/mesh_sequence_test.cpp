@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "lodestone/io/motion/animation.h"
 #include "lodestone/io/motion/motion.h"
+#include "lodestone/io/results/animation_output.h"
 #include "lodestone/mesh/errors.h"
 #include "support/mesh_samples.h"
 #include "support/temporary_folder.h"
@@ -128,6 +132,31 @@ TEST_F(Mesh_sequence, refuses_a_frame_with_a_wrong_number_of_vertices) {
 TEST_F(Mesh_sequence, refuses_a_frame_with_other_faces) {
   expect_error("OFF\n4 1 0\n0 0 0\n9 9 0\n1 0 0\n0 1 0\n3 0 3 2\n", ": face 0 (counted from 0) has other corners than");
   expect_error(square_off, ": the mesh has 2 faces, ");
+}
+
+/// Each of these files is read by itself, so vertices may be joined in one and not in the next.
+TEST_F(Mesh_sequence, tells_that_vertices_are_joined_in_files_of_their_own) {
+  const auto squares = [&](const std::string& name, double seam) {
+    Animation animation{.kind = "test", .vertices = 6, .faces = {{0, 1, 2}, {3, 4, 5}}, .file_face = {0, 1}};
+    animation.motion.frames = 1;
+    animation.motion.pose = [seam](std::size_t, std::span<Point> positions) {
+      const Point corners[]{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {seam, 0, 0}, {2, 0, 0}, {2, 1, 0}};
+      std::ranges::copy(corners, positions.begin());
+    };
+    write_animation(folder.path() / name, animation);
+    return folder.path() / name;
+  };
+  const auto motion = read_mesh_sequence({squares("0.glb", 1), squares("1.glb", 1.5)}, 6);
+  std::vector<Point> positions(6);
+  motion.pose(0, positions);
+  try {
+    motion.pose(1, positions);
+    ADD_FAILURE() << "expected an error";
+  } catch (const Bad_motion& error) {
+    EXPECT_NE(std::string(error.what()).find("in each of these files, vertices that are alike are joined"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ struct Motion {
   /// The same motion of some vertices, as one whose frames need not be posed as a whole; empty: `pose` must be used.
   /// @param vertices  their indices, in the order of the file or shape
   std::function<std::unique_ptr<Computed_motion>(std::span<const std::uint32_t> vertices)> computed = {};
-  Joined_vertices joined = {};                    ///< of a glTF or MD3 file; empty in other formats
+  Joined_vertices joined = {};                    ///< of its glTF or MD3 file, or else of the mesh that it moves
   File_animations animations = {};                ///< of a glTF file; no names in other formats
   std::vector<std::filesystem::path> files = {};  ///< of a glTF file: those that it is read from
 };
