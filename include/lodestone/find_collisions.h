@@ -42,9 +42,13 @@ Collisions collisions_of(Frame frame);
 /// contacts and other modes need a Detector, which this call makes and throws away. To follow meshes that move, keep a
 /// Detector. The query `first` gives one contact, which need not be the one that a Detector gives.
 ///
+/// Cost O(V + F) to read both and to find the faces in the overlap of their boxes, and O(n log n) for n such faces;
+/// with a Detector O(F log F).
+///
+/// @return contacts as `options.contacts` asks: none, one, or all, up to `most_contacts`
 /// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite, a Surface_mesh with
 ///                       removed elements
-/// @throws Bad_argument  an option out of range, or one mesh given twice
+/// @throws Bad_argument  an option out of range, one that the mode does not take, or one mesh given twice
 template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b>
 Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_options& options = {}) {
   need_same_containers();
@@ -62,7 +66,10 @@ Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_opti
 /// Nothing moves between two frames, so a `self_tolerance` finds no more than faces that intersect. A `tolerance` is
 /// between two objects, and changes nothing. Modes `exact` and `certified` do the same.
 ///
+/// Cost O(F log F) for the tree, which is thrown away.
+///
 /// @param file_vertex    which vertices are one: see `Object_options::file_vertex`
+/// @return contacts as `options.contacts` asks: none, one, or all, up to `most_contacts`
 /// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite, a Surface_mesh with
 ///                       removed elements
 /// @throws Bad_argument  an option out of range, another mode; `file_vertex` does not have one entry per vertex

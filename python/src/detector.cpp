@@ -194,7 +194,17 @@ Object_id Python_detector::add(const py::object& mesh, const py::object& faces, 
     ++poses_;
     objects_.push_back(std::move(object));
     ids_.push_back(id);
+    if (options.particles > 0 && (fewest_particles_ == 0 || options.particles < fewest_particles_))
+      fewest_particles_ = options.particles;
     return id;
+  });
+}
+
+Particle_setting Python_detector::particle_setting() {
+  return look([&](auto&) {
+    return Particle_setting{.strategy = settings_.strategy.function ? "" : settings_.strategy.name,
+                            .lbg = settings_.strategy_settings.lbg,
+                            .fewest_particles = fewest_particles_};
   });
 }
 

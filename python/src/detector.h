@@ -16,6 +16,7 @@
 #include "lodestone/io/motion/computed_motion.h"
 #include "motion.h"
 #include "options.h"
+#include "program/missed_frames.h"
 
 namespace lodestone::python {
 
@@ -118,6 +119,8 @@ class Python_detector {
   }
 
   const Detector_options& options() const { return settings_.options; }
+  /// How particles are made, of the objects so far.
+  Particle_setting particle_setting();
   std::string name(Object_id object) {
     return look([&](auto&) { return at(object).name(); });
   }
@@ -182,6 +185,7 @@ class Python_detector {
   std::uint64_t poses() const;
 
   Detector_settings settings_;
+  std::size_t fewest_particles_ = 0;  ///< see Particle_setting
   Deadlock_mutex mutex_;  ///< a visitor that calls the detector gets an error, not a deadlock
   bool reading_ = false;  ///< a query reads; who gets here then is its visitor
   std::vector<std::unique_ptr<Python_object>> objects_;  ///< null: removed

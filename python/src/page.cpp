@@ -65,7 +65,7 @@ class Python_page {
                .mode = std::string(name_of(detector_->options().mode)),
                .frames_per_second = frames_per_second,
                .first_contacts = detector_->options().contacts == Contact_query::first,
-               .note = missing_note(detector_->options())}) {
+               .note = missing_note(detector_->options(), detector_->particle_setting())}) {
     if (!(frames_per_second > 0) || !std::isfinite(frames_per_second))
       throw Bad_argument("frames_per_second must be finite and > 0");
     std::size_t id = 0;

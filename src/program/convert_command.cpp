@@ -45,8 +45,14 @@ Animation read_input(const Convert_command& command) {
                         {.mesh = command.mesh, .frames_per_second = rate, .limits = command.reading.limits});
 }
 
-Animation edited(Animation animation, const Convert_command& command) try {
-  if (command.weld) animation = welded(std::move(animation), *command.weld);
+/// Of all frames that were written, the two vertices made one that were farthest apart.
+using Farthest_parted = std::optional<Parted_vertices>;
+
+Animation edited(Animation animation, const Convert_command& command, Farthest_parted& farthest) try {
+  if (command.weld)
+    animation = welded(std::move(animation), *command.weld, [&farthest](const Parted_vertices& parted) {
+      if (!farthest || parted.distance > farthest->distance) farthest = parted;
+    });
   animation = subdivided(std::move(animation), command.subdivisions);
   return command.scale == 1 ? animation : scaled(std::move(animation), command.scale);
 } catch (const Bad_argument& error) {
@@ -161,6 +167,16 @@ void note_joined(const Convert_command& command, const Animation& animation, con
                      name, count, joined.size()));
 }
 
+/// The faces of both follow one of them, so that the surface is not that of IN.
+void note_parted(const std::string& name, const Farthest_parted& farthest) {
+  if (!farthest) return;
+  note(
+      fmt::format("{}: --weld makes vertices {} and {} (counted from 0) one, but frame {} moves them apart, by {:.3g}: "
+                  "the faces of "
+                  "both follow vertex {}",
+                  name, farthest->kept, farthest->merged, farthest->frame, farthest->distance, farthest->kept));
+}
+
 /// Files of an earlier, longer run would be read with those of this one.
 void note_other_files(const Convert_command& command, std::size_t frames) {
   if (is_point_cache(command.output) || is_gltf(command.output) || !is_pattern(command.output)) return;
@@ -175,13 +191,14 @@ void note_other_files(const Convert_command& command, std::size_t frames) {
 }
 
 void report(const Convert_command& command, const Animation& original, const Animation& animation, std::size_t frames,
-            const Float_rounding& rounding) {
+            const Float_rounding& rounding, const Farthest_parted& farthest) {
   const auto name = shown_name(command.input);
   note(other_animations_note(name, original.motion.animations));
   note(ignored_extensions_note(name, original.ignored_extensions));
   note(cut_faces_note(name, original.file_face));
   note(not_kept_note(name, original.not_read));
   note_joined(command, original, name);
+  note_parted(name, farthest);
   note_faces_not_kept(command, animation);
   note_rounding(command, rounding);
   note_other_files(command, frames);
@@ -196,7 +213,8 @@ int run(const Convert_command& command) {
   const auto original = read_input(command);
   check_rate(original, command);
   check_faces(original, command);
-  const auto animation = edited(original, command);
+  Farthest_parted farthest;
+  const auto animation = edited(original, command, farthest);
   auto options = output_options(animation, command);
   check_input_is_kept(command, animation, options.frames.size());
   const auto rounding = rounding_of(command, animation, options.frames.front());
@@ -205,7 +223,7 @@ int run(const Convert_command& command) {
     options.progress = [&](std::size_t done, std::size_t of) { progress(done, of); };
     write_animation(command.output, animation, options);
   }
-  if (!command.quiet) report(command, original, animation, options.frames.size(), rounding);
+  if (!command.quiet) report(command, original, animation, options.frames.size(), rounding, farthest);
   return exit_code::success;
 }
 

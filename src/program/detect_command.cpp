@@ -143,6 +143,7 @@ void print_results(Detect_run& scene_run, const Detect_command& command) {
   scene_run.print();
   if (!command.out.empty()) fmt::print("results: {}\n", printable(command.out.string()));
   if (scene_run.page() != nullptr) fmt::print("{}", scene_run.page()->summary());
+  if (scene_run.paraview() != nullptr) fmt::print("ParaView: {}\n", printable(command.paraview.string()));
 }
 
 int exit_code_of(const Detect_run& scene_run, const Detect_command& command) {

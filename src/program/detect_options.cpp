@@ -121,6 +121,14 @@ void add_particle_options(CLI::App& app, Detector_options& options) {
                  "candidate; in mean edge lengths")
       ->check(number_above_0(false))
       ->capture_default_str();
+  app.add_option(
+         "--distance-measure", options.distance_measure,
+         "The same modes: what these lengths are the mean of: adjacent_vertices, which is the mean edge length; "
+         "all_vertices, which is the mean distance of any two vertices, as published")
+      ->transform(one_of<Distance_measure>({{"adjacent_vertices", Distance_measure::adjacent_vertices},
+                                            {"all_vertices", Distance_measure::all_vertices}}))
+      ->type_name("MEAN")
+      ->default_str("adjacent_vertices");
   app.add_option("--candidates", options.candidates,
                  "Mode senin, or particles with --meetings 0: which of these candidates to check: all, closest")
       ->transform(one_of<Candidate_choice>({{"all", Candidate_choice::all}, {"closest", Candidate_choice::closest}}))
@@ -151,9 +159,13 @@ void add_outputs(CLI::App& app, Detect_command& command) {
       ->type_name("DIR")
       ->check(not_empty());
   add_shard_options(app, command);
-  app.add_flag("--all-rows", command.all_rows, "Print all rows of the table, not only the first 20");
-  auto* const json = app.add_flag("--json", command.json, "Print the summary as JSON in place of the table");
-  app.add_flag("--quiet", command.quiet, "No progress bar, one line in place of the table")->excludes(json);
+  auto* const all_rows =
+      app.add_flag("--all-rows", command.all_rows, "Print all rows of the table, not only the first 20");
+  auto* const json =
+      app.add_flag("--json", command.json, "Print the summary as JSON in place of the table")->excludes(all_rows);
+  app.add_flag("--quiet", command.quiet, "No progress bar, one line in place of the table")
+      ->excludes(json)
+      ->excludes(all_rows);
   app.add_flag("--exit-code", command.exit_code, "Exit with 1 if anything collides, is near or meets");
 }
 

@@ -50,6 +50,17 @@ bool asks_once(const Detect_command& command, const Scene& scene) {
          can_answer_at_once(command.options);
 }
 
+/// A surface in one frame, for exhaustive checking.
+struct Surface_now {
+  explicit Surface_now(const Surface_mesh& mesh) : numbering(mesh), positions(positions_of(mesh)) {
+    for (const auto& position : positions.rowwise()) box.extend(position.transpose());
+  }
+
+  Mesh_numbering<Surface_mesh> numbering;
+  Positions positions;
+  Box box = {};
+};
+
 }  // namespace
 
 Detect_run::Detect_run(const Detect_command& command)
@@ -162,9 +173,15 @@ void Detect_run::for_each_pair(const Visit& visit) const {
 
 std::optional<std::vector<Pair_truth>> Detect_run::find_truth() const {
   if (!command_.truth) return std::nullopt;
+  std::vector<Surface_now> surfaces;
+  surfaces.reserve(scene_.objects.size());
+  for (const auto& object : scene_.objects) surfaces.emplace_back(object.mesh);
   std::vector<Pair_truth> truth;
   for_each_pair([&](Object_id a, Object_id b) {
-    truth.push_back({a, b, exhaustive_face_pairs(scene_.objects[a].mesh, scene_.objects[b].mesh)});
+    auto& faces = truth.emplace_back(Pair_truth{a, b, {}}).faces;
+    const auto &one = surfaces[a], &other = surfaces[b];
+    if (one.box.intersects(other.box))
+      faces = exhaustive_numbered(one.positions, one.numbering.corners(), other.positions, other.numbering.corners());
   });
   return truth;
 }

@@ -14,7 +14,6 @@
 #include "lodestone/io/meshes/file_faces.h"
 #include "lodestone/io/results/text_table.h"
 #include "lodestone/version.h"
-#include "program/missed_frames.h"
 #include "program/standard_input.h"
 
 namespace lodestone {
@@ -87,9 +86,10 @@ Json pair_summary_json(const Run_subject& subject, Object_pair pair, const Pair_
 }
 
 /// Null for a mode that misses nothing.
-Json misses_json(const Detector_options& options) {
+Json misses_json(const Run_subject& subject) {
+  const auto& options = subject.command.options;
   if (!may_miss(options)) return nullptr;
-  const auto missed = expected_misses(options);
+  const auto missed = expected_misses(options, particle_setting(subject.command, subject.scene));
   if (!missed) return {{"least_share", nullptr}, {"most_share", nullptr}, {"experiment", nullptr}};
   return {{"least_share", missed->least}, {"most_share", missed->most}, {"experiment", missed->experiment}};
 }
@@ -306,7 +306,7 @@ Json summary_json(const Run_subject& subject, const Run_summary& summary) {
             {"scene", subject.scene.name},
             {"frames", subject.scene.frames},
             {"mode", name_of(mode)},
-            {"may_miss", misses_json(subject.command.options)},
+            {"may_miss", misses_json(subject)},
             {"strategy", divides ? Json(subject.command.partition.name) : Json()},
             {"objects", objects_json(subject)},
             {"pairs", Json::array()}};
@@ -353,7 +353,8 @@ void print_summary(const Run_subject& subject, const Run_summary& summary) {
   print_pairs(subject, summary);
   fmt::print("\n");
   print_times(subject, summary);
-  if (const auto note = missing_note(subject.command.options)) fmt::print("{}\n", *note);
+  const auto setting = particle_setting(subject.command, subject.scene);
+  if (const auto note = missing_note(subject.command.options, setting)) fmt::print("{}\n", *note);
 }
 
 }  // namespace lodestone

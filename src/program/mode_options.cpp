@@ -27,7 +27,7 @@ std::string names_of(const std::vector<Mode>& modes) {
 }  // namespace
 
 void refuse_options_beside_meetings(const CLI::App& detect, std::size_t meetings) {
-  for (const auto* option : {"--collision-distance", "--candidates"})
+  for (const auto* option : {"--collision-distance", "--distance-measure", "--candidates"})
     if (meetings > 0 && detect.count(option) > 0)
       throw Bad_argument(
           fmt::format("{} has no effect with meetings: add --meetings 0, which is the published method", option));
@@ -51,6 +51,7 @@ void refuse_options_of_other_modes(const CLI::App& detect, Mode mode) {
       {"--parting", {Mode::exact, Mode::certified}},
       {"--patches", {Mode::exact, Mode::certified}},
       {"--collision-distance", {Mode::particles, Mode::senin}},
+      {"--distance-measure", {Mode::particles, Mode::senin}},
       {"--candidates", {Mode::particles, Mode::senin}},
       {"--growth", {Mode::particles}},
       {"--meetings", {Mode::particles}},

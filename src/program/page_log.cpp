@@ -9,7 +9,6 @@
 #include "io/results/frame_json.h"
 #include "io/results/page_frame.h"
 #include "lodestone/io/scenes/object_options.h"
-#include "program/missed_frames.h"
 #include "program/scene_positions.h"
 
 namespace lodestone {
@@ -30,7 +29,7 @@ Page_head head_of(const Detect_command& command, const Scene& scene, std::size_t
                  .mode = std::string(name_of(mode)),
                  .frame_step = frame_step,
                  .first_contacts = command.options.contacts == Contact_query::first,
-                 .note = missing_note(command.options)};
+                 .note = missing_note(command.options, particle_setting(command, scene))};
   if (mode == Mode::certified)
     head.states = {"far", "bounded", "posed"};
   else if (makes_regions(command.options, scene))

@@ -47,6 +47,10 @@ bool meet_beyond_vertex(const Point& origin, const Point& a, const Point& b, con
          same_direction(origin, b, d);
 }
 
+/// 1 or -1 if the sign of a value is certain, 0 otherwise.
+/// @param error  of the value; not negative
+int sure_sign(double value, double error) { return std::abs(value) > error ? (value > 0 ? 1 : -1) : 0; }
+
 /// Whether the faces p q a and p q b meet outside of the edge p q.
 bool meet_beyond_edge(const Point& p, const Point& q, const Point& a, const Point& b) {
   const bool flat = CGAL::collinear(p, q, a), other_flat = CGAL::collinear(p, q, b);
@@ -108,15 +112,38 @@ Neighbour_check::Wing Neighbour_check::make_wing(const double* positions, const 
 /// If the signs are equal, the rays are opposite.
 bool Neighbour_check::surely_beside(const Wing& a, const Wing& b) {
   const auto side = [](const Wing& wing, const Wing& other, int arm) {
-    const double volume = wing.normal.dot(other.arms[arm]), bound = wing.area * other.reach[arm];
-    if (!measurable(bound) || !(std::abs(volume) > volume_error * bound)) return 0;
-    return volume > 0 ? 1 : -1;
+    const double bound = wing.area * other.reach[arm];
+    return measurable(bound) ? sure_sign(wing.normal.dot(other.arms[arm]), volume_error * bound) : 0;
   };
   const int c = side(a, b, 0), d = side(a, b, 1);
   if (c != 0 && c == d) return true;
   const int e = side(b, a, 0), f = side(b, a, 1);
   if (e != 0 && e == f) return true;
   return c != 0 && d != 0 && e != 0 && f != 0 && c == e;
+}
+
+/// Tries to prove the same of faces that may be coplanar: seen along some axis, neither face edge-on, an edge of one
+/// parts them. The arms of one lie beyond it, and its own face on the other side.
+bool Neighbour_check::surely_beside_along_an_axis(const Wing& a, const Wing& b) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int turn_a = sure_sign(a.normal[axis], cross_error * a.area);
+    const int turn_b = sure_sign(b.normal[axis], cross_error * b.area);
+    if (turn_a == 0 || turn_b == 0) continue;
+    const int x = (axis + 1) % 3, y = (axis + 2) % 3;
+    const auto turn = [&](int i, int j) {
+      const double bound = a.reach[i] * b.reach[j];
+      const double product = a.arms[i][x] * b.arms[j][y] - a.arms[i][y] * b.arms[j][x];
+      return measurable(bound) ? sure_sign(product, cross_error * bound) : 0;
+    };
+    const int turns[2][2] = {{turn(0, 0), turn(0, 1)}, {turn(1, 0), turn(1, 1)}};
+    for (int arm = 0; arm < 2; ++arm) {
+      // A face turns from its first arm to its second: what lies beyond the first is on the other side.
+      const int beyond_a = arm == 0 ? -turn_a : turn_a, beyond_b = arm == 0 ? turn_b : -turn_b;
+      if (turns[arm][0] == beyond_a && turns[arm][1] == beyond_a) return true;
+      if (turns[0][arm] == beyond_b && turns[1][arm] == beyond_b) return true;
+    }
+  }
+  return false;
 }
 
 /// Tries to prove that two faces with a common edge meet in it only: they are not coplanar, or they lie on different
@@ -126,10 +153,10 @@ bool Neighbour_check::surely_hinged(const Wing& a, const Wing& b, int other_of_a
   const double bound = a.area * b.reach[other_of_b];
   if (measurable(bound) && std::abs(a.normal.dot(b.arms[other_of_b])) > volume_error * bound) return true;
   for (int axis = 0; axis < 3; ++axis) {
-    const double left = a.normal[axis], right = b.normal[axis];
-    if (!(std::abs(left) > cross_error * a.area && std::abs(right) > cross_error * b.area)) continue;
-    const bool same_turn = (left > 0) == (right > 0);
-    if (same_turn != (other_of_a == other_of_b)) return true;
+    const int turn_a = sure_sign(a.normal[axis], cross_error * a.area);
+    const int turn_b = sure_sign(b.normal[axis], cross_error * b.area);
+    if (turn_a == 0 || turn_b == 0) continue;
+    if ((turn_a == turn_b) != (other_of_a == other_of_b)) return true;
   }
   return false;
 }
@@ -155,7 +182,7 @@ void Neighbour_check::check_pairs(std::uint32_t vertex, std::span<const std::uin
             least_vertex = least_vertex && a.ends[k] >= vertex;
           }
       if (!least_vertex) continue;
-      if (common_ends == 0 && surely_beside(a, b)) continue;
+      if (common_ends == 0 && (surely_beside(a, b) || surely_beside_along_an_axis(a, b))) continue;
       if (common_ends == 1 && surely_hinged(a, b, 1 - end_of_a, 1 - end_of_b)) continue;
       ++exact_tests_;
       if (faces_intersect(faces[a.face], triangle(a.face), faces[b.face], triangle(b.face)))

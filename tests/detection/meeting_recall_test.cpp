@@ -289,6 +289,37 @@ TEST(Meeting_recall, a_bump_that_grows_out_of_a_sphere_is_found_wherever_it_grow
   EXPECT_GT(colliding, 100U);
 }
 
+TEST(Meeting_recall, a_spike_of_one_vertex_is_found_with_a_larger_reach) {
+  constexpr int frames = 8;
+  std::size_t colliding = 0, missed_by_default = 0;
+  for (const double height : {0.5, 1.0, 2.0})
+    for (std::uint32_t vertex = 0; vertex < 400; vertex += 57) {
+      const auto rest = sphere(10);
+      const Surface_mesh::Vertex_index tip(vertex);
+      const Eigen::Vector3d direction = coordinates(rest.point(tip)).normalized();
+      const Eigen::Vector3d centre = (1.3 + 0.8 * height) * direction;  // the spike ends inside
+      auto spiked = rest, other = sphere(8, 0.3, Point(centre.x(), centre.y(), centre.z()));
+      Detector<> far({.mode = Mode::particles, .opening_reach = 4, .contacts = Contact_query::yes_no});
+      Detector<> usual({.mode = Mode::particles, .contacts = Contact_query::yes_no});
+      for (auto* const detector : {&far, &usual}) {
+        detector->add(std::as_const(spiked));
+        detector->add(std::as_const(other));
+      }
+      for (int number = 0; number <= frames; ++number) {
+        const Eigen::Vector3d at = (1 + height * number / frames) * direction;
+        spiked.point(tip) = Point(at.x(), at.y(), at.z());
+        const bool collide = !exhaustive_face_pairs(spiked, other).empty();
+        far.update();
+        usual.update();
+        EXPECT_EQ(far.detect().collides(), collide) << height << ' ' << vertex << ' ' << number;
+        missed_by_default += collide && !usual.detect().collides() ? 1 : 0;
+        colliding += collide ? 1 : 0;
+      }
+    }
+  EXPECT_GT(colliding, 50U);
+  EXPECT_GT(missed_by_default, 0U) << "otherwise docs/modes.md warns of nothing";
+}
+
 TEST(Meeting_recall, pairs_that_part_and_meet_again_elsewhere_are_found_among_many_objects) {
   for (const auto query : {Contact_query::yes_no, Contact_query::all}) {
     std::mt19937_64 random(5);

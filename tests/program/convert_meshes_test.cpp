@@ -122,6 +122,26 @@ TEST_F(Convert_meshes, built_in_shapes_are_converted) {
   expect_error(run_program({"convert", "shape:teapot", path("b.obj"), "--mesh", mesh}), 2, "only a point cache");
 }
 
+TEST_F(Convert_meshes, welding_says_if_a_later_frame_moves_apart_what_it_makes_one) {
+  const std::string faces = "f 1 2 3\nf 4 5 6\n";
+  write("twins_0.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\n" + faces);
+  write("twins_1.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 2\nv 1 1 0\nv 0 1 0\n" + faces);
+  const auto error_of = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"convert", path("twins_#.obj"), path("twins.glb"), "--weld", "0"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const auto result = run_program(arguments);
+    expect_success(result);
+    return result.err;
+  };
+  const std::string told =
+      "--weld makes vertices 0 and 3 (counted from 0) one, but frame 1 moves them apart, by 2: the faces of both "
+      "follow "
+      "vertex 0\n";
+  EXPECT_NE(error_of({}).find(told), std::string::npos) << error_of({});
+  EXPECT_EQ(error_of({"--frames", "0"}), "") << "no frame that is written moves them apart";
+  EXPECT_EQ(error_of({"--quiet"}), "");
+}
+
 TEST_F(Convert_meshes, surfaces_are_welded_subdivided_and_scaled) {
   const auto twins =
       write("twins.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0.001\nv 1 1 0.001\nv 0 1 0\nf 1 2 3\nf 4 5 6\n");

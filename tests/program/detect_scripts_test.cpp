@@ -93,6 +93,11 @@ TEST_F(Detect_scripts, the_table_has_twenty_rows_unless_all_are_asked_for) {
   const auto full = detect(same).out;
   EXPECT_EQ(rows(full), 28) << full;
   EXPECT_EQ(full.find("--all-rows"), std::string::npos);
+  for (const auto* without_table : {"--quiet", "--json"}) {
+    auto ignored = same;
+    ignored.emplace_back(without_table);
+    expect_error(detect(ignored), 2, "--all-rows");
+  }
 }
 
 TEST_F(Detect_scripts, a_sentence_tells_that_the_table_leaves_out_pairs_that_never_came_near) {

@@ -118,28 +118,60 @@ TEST_F(Program_mode, that_may_miss_more_than_was_measured_tells_no_figures) {
                                                          {"--meetings", "1"},
                                                          {"--particles", "4"},
                                                          {"--meetings", "0", "--collision-distance", "0.1"},
-                                                         {"--growth", "9"}};
+                                                         {"--growth", "9"},
+                                                         {"--strategy", "random"},
+                                                         {"--normal-weight", "0"},
+                                                         {"--split", "multiplicative"},
+                                                         {"--epsilon", "0.1"},
+                                                         {"--lbg-tolerance", "0.1"},
+                                                         {"--lbg-sample", "0"},
+                                                         {"--keep-islands"},
+                                                         {"--open-seams"}};
   for (auto options : unmeasured) {
     SCOPED_TRACE(testing::PrintToString(options));
     options.insert(options.begin(), {"--mode", "particles"});
     const auto result = detect(options);
     expect_success(result);
-    EXPECT_NE(result.out.find("no experiment has measured how many"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("has not measured how many"), std::string::npos) << result.out;
     EXPECT_EQ(result.out.find(" of the colliding frames"), std::string::npos) << result.out;
     EXPECT_EQ(summary()["may_miss"],
               Json({{"least_share", nullptr}, {"most_share", nullptr}, {"experiment", nullptr}}));
   }
 }
 
+TEST_F(Program_mode, that_may_miss_tells_figures_unless_an_object_asks_for_fewer_particles) {
+  const auto note = [&](const std::string& particles, const std::vector<std::string>& options) {
+    const auto scene = folder.write("scene.json", R"({"name": "two spheres", "objects": [
+          {"name": "a", "shape": {"icosphere": {"frequency": 4}})" +
+                                                      particles + R"(},
+          {"name": "b", "shape": {"icosphere": {"frequency": 4}}, "particles": 40}]})");
+    std::vector<std::string> arguments{"detect", scene.string(), "--mode", "particles"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const auto result = run_program(arguments);
+    expect_success(result);
+    return result.out;
+  };
+  const std::string figures = "of the colliding frames", none = "has not measured how many";
+  EXPECT_NE(note("", {}).find(figures), std::string::npos);
+  EXPECT_NE(note(R"(, "particles": 12)", {}).find(figures), std::string::npos);
+  EXPECT_NE(note(R"(, "particles": 11)", {}).find(none), std::string::npos);
+  EXPECT_NE(note(R"(, "particles": 11)", {"--particles", "12"}).find(figures), std::string::npos);
+}
+
 TEST_F(Program_mode, exact_refuses_the_options_of_particles) {
-  const std::map<std::string, std::string> options{{"--meetings", "0"},         {"--opening-budget", "100"},
-                                                   {"--opening-reach", "0.5"},  {"--collision-distance", "9"},
-                                                   {"--candidates", "closest"}, {"--growth", "inf"}};
+  const std::map<std::string, std::string> options{{"--meetings", "0"},
+                                                   {"--opening-budget", "100"},
+                                                   {"--opening-reach", "0.5"},
+                                                   {"--collision-distance", "9"},
+                                                   {"--candidates", "closest"},
+                                                   {"--growth", "inf"},
+                                                   {"--distance-measure", "all_vertices"}};
   for (const auto& [option, value] : options) {
     SCOPED_TRACE(option);
     expect_error(detect({option, value}), 2, "mode particles");
     expect_error(detect({option, value, "--mode", "exact"}), 2, "mode particles");
-    const bool published = option == "--collision-distance" || option == "--candidates";
+    const bool published =
+        option == "--collision-distance" || option == "--candidates" || option == "--distance-measure";
     expect_success(detect({option, value, "--mode", "particles", published ? "--meetings=0" : "--quiet"}));
   }
 }
@@ -150,10 +182,23 @@ TEST_F(Program_mode, senin_refuses_the_options_of_meetings) {
 }
 
 TEST_F(Program_mode, particles_with_meetings_refuse_what_only_the_published_method_uses) {
-  for (const auto& [option, value] : {std::pair("--collision-distance", "9"), std::pair("--candidates", "closest")}) {
+  for (const auto& [option, value] : {std::pair("--collision-distance", "9"), std::pair("--candidates", "closest"),
+                                      std::pair("--distance-measure", "all_vertices")}) {
     expect_error(detect({"--mode", "particles", option, value}), 2, "add --meetings 0");
     expect_success(detect({"--mode", "particles", "--meetings", "0", option, value}));
   }
+}
+
+TEST_F(Program_mode, the_published_distance_measure_finds_a_needle_that_the_mean_edge_length_misses) {
+  // The square has edges of 1 or more; its vertices and the needle's are much farther apart than the needle is wide.
+  const auto collides = [&](const std::string& measure) {
+    expect_success(detect(
+        {"--mode", "particles", "--meetings", "0", "--collision-distance", "0.62", "--distance-measure", measure}));
+    return frame()["pairs"].at(0)["collides"].get<bool>();
+  };
+  EXPECT_NE(collides("all_vertices"), collides("adjacent_vertices"));
+  expect_error(detect({"--mode", "particles", "--meetings", "0", "--distance-measure", "edges"}), 2,
+               "adjacent_vertices");
 }
 
 TEST_F(Program_mode, particles_find_a_needle_far_from_all_vertices_by_meetings_and_may_miss_it_without) {

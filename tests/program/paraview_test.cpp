@@ -55,6 +55,12 @@ TEST_F(Paraview, lists_have_every_frame_with_its_time) {
   }
 }
 
+TEST_F(Paraview, the_folder_is_named_after_the_table) {
+  const auto result = run_program({"detect", scene.string(), "--paraview", out.string()});
+  expect_success(result);
+  EXPECT_TRUE(result.out.ends_with("ParaView: " + out.string() + "\n")) << result.out;
+}
+
 TEST_F(Paraview, meshes_have_objects_regions_and_particles) {
   detect({"--particles", "2"});
   const auto found = read_vtk({frame("meshes_0000"), frame("meshes_0002"), frame("particles_0000")});

@@ -299,17 +299,27 @@ def test_the_path_of_a_page_is_checked_before_frames_are_played(tmp_path):
 
 
 def test_a_page_of_particles_says_that_collisions_may_be_missed(tmp_path):
-    for mode, warns in (("particles", True), ("exact", False)):
-        detector = lodestone.Detector(mode=mode)
-        detector.add(cube()), detector.add(sphere(8))
+    measured, unmeasured = "of the colliding frames", "has not measured how many"
+    for options, own_particles, says in (
+        ({"mode": "exact"}, 0, None),
+        ({"mode": "particles"}, 0, measured),
+        ({"mode": "particles"}, 12, measured),
+        ({"mode": "particles"}, 4, unmeasured),
+        ({"mode": "particles", "least_particles": 4}, 0, unmeasured),
+        ({"mode": "particles", "strategy": "random"}, 0, unmeasured),
+        ({"mode": "particles", "normal_weight": 0.5}, 0, unmeasured),
+        ({"mode": "particles", "strategy": lambda vertices, faces, count: np.arange(len(vertices)) % 2}, 0, unmeasured),
+    ):
+        detector = lodestone.Detector(**options)
+        detector.add(cube(), particles=own_particles), detector.add(sphere(8))
         page = lodestone.Page(detector)
         page.add(detector.detect())
         page.save(tmp_path / "page.html")
         data = re.search(r'id="lodestone-data"[^>]*>([^<]*)<', (tmp_path / "page.html").read_text()).group(1)
         bytes_of_page = base64.b64decode(data)
         header = json.loads(bytes_of_page[16 : 16 + int.from_bytes(bytes_of_page[12:16], "little")])
-        assert bool(header["note"]) == warns
-        assert not warns or "may miss collisions" in header["note"]
+        assert bool(header["note"]) == bool(says)
+        assert not says or ("may miss collisions" in header["note"] and says in header["note"])
 
 
 def test_a_page_shows_frames(scenes, tmp_path):

@@ -134,6 +134,66 @@ TEST(Neighbour_check, of_flat_sides_that_meet_at_right_angles_needs_no_exact_tes
   EXPECT_EQ(answer(mesh).exact_tests, 0U);
 }
 
+/// Faces around vertex 0, side by side in the plane z = 0, and one more at the same vertex that stands on it.
+std::pair<Positions, std::vector<Corners>> flat_fan_with_a_wall(std::uint32_t faces) {
+  Positions positions(faces + 4, 3);
+  positions.setZero();
+  std::vector<Corners> corners;
+  for (std::uint32_t i = 0; i <= faces; ++i) {
+    const double angle = 6 * static_cast<double>(i) / faces;  // less than a whole turn
+    positions.row(1 + i) << std::cos(angle), std::sin(angle), 0;
+    if (i > 0) corners.push_back(i % 3 == 0 ? Corners{0, i + 1, i} : Corners{i, i + 1, 0});
+  }
+  positions.row(faces + 2) << 1, -0.1, 0.5;
+  positions.row(faces + 3) << 1, -0.1, 1;
+  corners.push_back({0, faces + 2, faces + 3});
+  return {positions, corners};
+}
+
+TEST(Neighbour_check, of_a_flat_fan_with_a_face_beside_it_needs_no_exact_test) {
+  auto [positions, faces] = flat_fan_with_a_wall(40);
+  const auto needs_none = [&faces = faces](const Positions& at) {
+    const auto result = answer(at, faces);
+    EXPECT_EQ(result.pairs, by_definition::adjacent_pairs(at, faces));
+    EXPECT_EQ(result.exact_tests, 0U);
+  };
+  needs_none(positions);
+  for (const double factor : {0x1p-140, 0x1p-300, 0x1p300}) needs_none(factor * positions);
+  Positions turned = positions;
+  for (int axis = 1; axis < 3; ++axis) {
+    for (int column = 0; column < 3; ++column) turned.col((column + axis) % 3) = positions.col(column);
+    needs_none(turned);
+  }
+}
+
+TEST(Neighbour_check, equals_the_definition_on_flat_fans_that_overlap) {
+  std::mt19937_64 random(4);
+  std::size_t found = 0, without = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    // Faces around vertex 0 in a plane, most of them narrow; those on a lattice have edges on each other.
+    std::uniform_real_distribution<double> place(-1, 1);
+    const auto coordinate = [&] { return trial % 2 == 0 ? place(random) : static_cast<double>(random() % 5) - 2; };
+    Positions positions(17, 3);
+    positions.row(0).setZero();
+    for (int v = 1; v < 17; v += 2) {
+      const double x = coordinate(), y = coordinate();
+      positions.row(v) << x, y, x + 2 * y;
+      const double x2 = x + 0.2 * coordinate(), y2 = y + 0.2 * coordinate();
+      positions.row(v + 1) << x2, y2, x2 + 2 * y2;
+    }
+    if (trial % 3 == 0) positions.col(2).setZero();
+    std::vector<Corners> faces{{1, 3, 5}};
+    for (std::uint32_t v = 1; v < 17; v += 2) faces.push_back({v, v + 1, 0});
+    const auto expected = by_definition::adjacent_pairs(positions, faces);
+    const auto result = answer(positions, faces);
+    ASSERT_EQ(result.pairs, expected) << trial;
+    found += expected.size();
+    without += result.exact_tests == expected.size() ? 1 : 0;
+  }
+  EXPECT_GT(found, 200U);
+  EXPECT_GT(without, 60U) << "pairs that surely meet in the vertex only are told apart";
+}
+
 TEST(Neighbour_check, equals_the_definition_on_any_faces) {
   std::mt19937_64 random(2);
   std::size_t found = 0;

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "lodestone/mesh/concepts.h"
 #include "lodestone/mesh/coordinate_reader.h"

@@ -60,6 +60,7 @@ class Neighbour_check {
 
   static Wing make_wing(const double* positions, const Corners& corners, std::uint32_t face, std::uint32_t vertex);
   static bool surely_beside(const Wing& a, const Wing& b);
+  static bool surely_beside_along_an_axis(const Wing& a, const Wing& b);
   static bool surely_hinged(const Wing& a, const Wing& b, int other_of_a, int other_of_b);
   void check_pairs(std::uint32_t vertex, std::span<const std::uint32_t> fan, std::span<const Corners> faces,
                    const double* positions, std::vector<Face_pair>& found);

@@ -34,7 +34,7 @@ Motion computed(Motion motion, std::size_t count, Compute compute) {
               [inner = std::move(motion.pose), count, compute](std::size_t frame, std::span<Point> positions) {
                 std::vector<Point> original(count);
                 inner(frame, original);
-                compute(original, positions);
+                compute(frame, original, positions);
               },
           .frames_per_second = motion.frames_per_second,
           .start = motion.start};
@@ -87,6 +87,39 @@ class Kept_vertices {
   std::map<Cube, std::vector<Kept>> cubes_;
 };
 
+struct Weld {
+  double distance;
+  std::vector<std::uint32_t> kept;    ///< per vertex that is kept: its index before
+  std::vector<std::uint32_t> target;  ///< per vertex before: its index, or that of the one which it joins
+
+  /// The two vertices made one that are farthest apart in a frame, if they are farther apart than they may be.
+  std::optional<Parted_vertices> parted(std::size_t frame, std::span<const Point> original) const {
+    Parted_vertices parted{.frame = frame};
+    double largest = 0;
+    for (std::uint32_t vertex = 0; vertex < target.size(); ++vertex) {
+      const auto at = kept[target[vertex]];
+      if (at == vertex) continue;
+      const double distance = std::sqrt(CGAL::squared_distance(original[at], original[vertex]));
+      if (distance > parted.distance) parted = {frame, at, vertex, distance};
+      for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(original[at][axis]));
+    }
+    if (parted.distance > distance + 0x1p-21 * largest) return parted;
+    return std::nullopt;
+  }
+};
+
+/// Which vertices become one.
+Weld weld(std::span<const Point> points, double distance) {
+  Weld weld{.distance = distance, .kept = {}, .target = {}};
+  Kept_vertices kept(distance);
+  for (std::uint32_t vertex = 0; vertex < points.size(); ++vertex) {
+    const auto near = kept.near(points[vertex]);
+    weld.target.push_back(near ? *near : kept.add(points[vertex]));
+    if (!near) weld.kept.push_back(vertex);
+  }
+  return weld;
+}
+
 void drop_degenerate_faces(Animation& animation) {
   std::size_t kept = 0;
   for (std::size_t f = 0; f < animation.faces.size(); ++f) {
@@ -134,7 +167,7 @@ Animation subdivided_once(Animation animation) {
   animation.file_face = std::move(file_face);
   animation.vertices = count + edges->size();
   animation.motion = computed(std::move(animation.motion), count,
-                              [edges](const std::vector<Point>& original, std::span<Point> positions) {
+                              [edges](std::size_t, const std::vector<Point>& original, std::span<Point> positions) {
                                 auto next = std::ranges::copy(original, positions.begin()).out;
                                 for (const auto& [a, b] : *edges) *next++ = middle_of(original[a], original[b]);
                               });
@@ -148,7 +181,7 @@ Animation scaled(Animation animation, double factor) {
     throw Bad_argument(fmt::format("the scale is {}, must be > 0 and finite", factor));
   animation.motion =
       computed(std::move(animation.motion), animation.vertices,
-               [factor](const std::vector<Point>& original, std::span<Point> positions) {
+               [factor](std::size_t, const std::vector<Point>& original, std::span<Point> positions) {
                  for (std::size_t v = 0; v < original.size(); ++v) {
                    positions[v] = CGAL::ORIGIN + factor * (original[v] - CGAL::ORIGIN);
                    if (!is_finite(positions[v]))
@@ -158,32 +191,25 @@ Animation scaled(Animation animation, double factor) {
   return animation;
 }
 
-Animation welded(Animation animation, double distance) {
+Animation welded(Animation animation, double distance, std::function<void(const Parted_vertices&)> parted) {
   if (!(distance >= 0) || !std::isfinite(distance))
     throw Bad_argument(fmt::format("the distance to weld is {}, must be >= 0 and finite", distance));
   need_faces(animation);
   std::vector<Point> points(animation.vertices);
   animation.motion.pose(0, points);
-  Kept_vertices kept(distance);
-  auto sources = std::make_shared<std::vector<std::uint32_t>>();  // per kept vertex: its index before
-  std::vector<std::uint32_t> target(points.size());
-  for (std::uint32_t v = 0; v < points.size(); ++v) {
-    if (const auto near = kept.near(points[v])) {
-      target[v] = *near;
-    } else {
-      target[v] = kept.add(points[v]);
-      sources->push_back(v);
-    }
-  }
+  const auto joins = std::make_shared<const Weld>(weld(points, distance));
   for (auto& face : animation.faces)
-    for (auto& corner : face) corner = target[corner];
+    for (auto& corner : face) corner = joins->target[corner];
   drop_degenerate_faces(animation);
   animation.motion = computed(std::move(animation.motion), animation.vertices,
-                              [sources](const std::vector<Point>& original, std::span<Point> positions) {
-                                for (std::size_t v = 0; v < sources->size(); ++v)
-                                  positions[v] = original[(*sources)[v]];
+                              [joins, parted = std::move(parted)](std::size_t frame, const std::vector<Point>& original,
+                                                                  std::span<Point> positions) {
+                                for (std::size_t v = 0; v < joins->kept.size(); ++v)
+                                  positions[v] = original[joins->kept[v]];
+                                if (!parted) return;
+                                if (const auto vertices = joins->parted(frame, original)) parted(*vertices);
                               });
-  animation.vertices = sources->size();
+  animation.vertices = joins->kept.size();
   return animation;
 }
 

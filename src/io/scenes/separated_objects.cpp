@@ -73,8 +73,10 @@ void check_count(std::size_t count, std::size_t most, const char* things, const 
 Separation by_component(const Scene_object& object, std::span<const Corners> faces) {
   Separation by{.label = component_of_faces(static_cast<std::uint32_t>(object.file_vertices), faces), .names = {}};
   const std::size_t count = by.label.empty() ? 0 : *std::ranges::max_element(by.label) + std::size_t{1};
-  check_count(count, most_scene_objects, "connected components", object.name,
-              ". Vertices that coincide connect no faces before they are welded, as by lodestone convert --weld 0");
+  check_count(
+      count, most_scene_objects, "connected components", object.name,
+      ". Vertices that coincide connect no faces before they are welded, as by lodestone convert --weld 0, if they "
+      "stay together");
   for (std::size_t number = 1; number <= count; ++number) by.names.push_back(fmt::format("{}_{}", object.name, number));
   return by;
 }

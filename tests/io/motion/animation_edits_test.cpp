@@ -51,6 +51,35 @@ TEST(Animation_edits, welding_merges_vertices_that_are_near_in_the_first_frame) 
   EXPECT_EQ(welded(split_square(), 0).vertices, 6U);
 }
 
+TEST(Animation_edits, welding_tells_of_each_frame_which_vertices_it_moves_farthest_apart) {
+  std::vector<Parted_vertices> told;
+  const auto square = welded(split_square(), 0.01, [&](const Parted_vertices& parted) { told.push_back(parted); });
+  positions_of(square, 0);
+  EXPECT_TRUE(told.empty()) << "0.001 apart, as they may be";
+  positions_of(square, 1);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].frame, 1U);
+  EXPECT_EQ(told[0].kept, 2U) << "of two equal distances the first";
+  EXPECT_EQ(told[0].merged, 3U);
+  EXPECT_EQ(told[0].distance, 5);
+}
+
+TEST(Animation_edits, welding_tells_nothing_of_vertices_that_rounding_to_floats_moves_apart) {
+  const auto told_for = [](double apart) {
+    Animation animation = split_square();
+    animation.motion.pose = [apart](std::size_t frame, std::span<Point> positions) {
+      const double x = 1000 + (frame == 0 ? 0 : apart);
+      std::ranges::copy(std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1000, 1, 0}, {x, 1, 0}, {0, 1, 0}, {0, 0, 0}},
+                        positions.begin());
+    };
+    std::size_t told = 0;
+    positions_of(welded(animation, 0, [&](const Parted_vertices&) { ++told; }), 1);
+    return told;
+  };
+  EXPECT_EQ(told_for(0x1p-13), 0U);
+  EXPECT_EQ(told_for(0x1p-10), 1U);
+}
+
 TEST(Animation_edits, welding_drops_faces_that_lose_a_corner_and_keeps_the_numbers_of_the_others) {
   Animation animation = split_square();
   animation.faces.insert(animation.faces.begin(), {0, 5, 1});

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "lodestone/bounds/node_bound.h"
 #include "lodestone/mesh/concepts.h"
