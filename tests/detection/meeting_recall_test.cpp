@@ -312,11 +312,12 @@ TEST(Meeting_recall, a_spike_of_one_vertex_is_found_with_a_larger_reach) {
         far.update();
         usual.update();
         EXPECT_EQ(far.detect().collides(), collide) << height << ' ' << vertex << ' ' << number;
-        missed_by_default += collide && !usual.detect().collides() ? 1 : 0;
+        const bool found = usual.detect().collides();
+        missed_by_default += collide && !found ? 1 : 0;
         colliding += collide ? 1 : 0;
       }
     }
-  EXPECT_GT(colliding, 50U);
+  EXPECT_GT(colliding, 40U);
   EXPECT_GT(missed_by_default, 0U) << "otherwise docs/modes.md warns of nothing";
 }
 

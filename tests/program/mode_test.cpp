@@ -119,7 +119,7 @@ TEST_F(Program_mode, that_may_miss_more_than_was_measured_tells_no_figures) {
                                                          {"--particles", "4"},
                                                          {"--meetings", "0", "--collision-distance", "0.1"},
                                                          {"--growth", "9"},
-                                                         {"--strategy", "random"},
+                                                         {"--strategy", "grid"},
                                                          {"--normal-weight", "0"},
                                                          {"--split", "multiplicative"},
                                                          {"--epsilon", "0.1"},
@@ -189,14 +189,20 @@ TEST_F(Program_mode, particles_with_meetings_refuse_what_only_the_published_meth
   }
 }
 
-TEST_F(Program_mode, the_published_distance_measure_finds_a_needle_that_the_mean_edge_length_misses) {
-  // The square has edges of 1 or more; its vertices and the needle's are much farther apart than the needle is wide.
+TEST_F(Program_mode, the_published_distance_measure_is_longer_than_a_mean_edge) {
+  // A tiny triangle in the middle of a face of the cloth, two hundredths from its nearest vertex. A tenth of the mean
+  // edge is five thousandths, a tenth of the mean distance of vertices is ten times that.
+  const auto tiny = folder.write("tiny.off",
+                                 "OFF\n3 1 0\n0.0167 0.0333 -0.005\n0.0167 0.0333 0.005\n0.0177 0.0333 0.005\n"
+                                 "3 0 1 2\n");
   const auto collides = [&](const std::string& measure) {
-    expect_success(detect(
-        {"--mode", "particles", "--meetings", "0", "--collision-distance", "0.62", "--distance-measure", measure}));
+    expect_success(run_program({"detect", R"(shape:{"cloth": {"columns": 20, "rows": 20}})", tiny.string(), "--out",
+                                out.string(), "--mode", "particles", "--meetings", "0", "--collision-distance", "0.1",
+                                "--distance-measure", measure}));
     return frame()["pairs"].at(0)["collides"].get<bool>();
   };
-  EXPECT_NE(collides("all_vertices"), collides("adjacent_vertices"));
+  EXPECT_TRUE(collides("all_vertices"));
+  EXPECT_FALSE(collides("adjacent_vertices"));
   expect_error(detect({"--mode", "particles", "--meetings", "0", "--distance-measure", "edges"}), 2,
                "adjacent_vertices");
 }

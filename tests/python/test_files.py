@@ -306,7 +306,7 @@ def test_a_page_of_particles_says_that_collisions_may_be_missed(tmp_path):
         ({"mode": "particles"}, 12, measured),
         ({"mode": "particles"}, 4, unmeasured),
         ({"mode": "particles", "least_particles": 4}, 0, unmeasured),
-        ({"mode": "particles", "strategy": "random"}, 0, unmeasured),
+        ({"mode": "particles", "strategy": "grid"}, 0, unmeasured),
         ({"mode": "particles", "normal_weight": 0.5}, 0, unmeasured),
         ({"mode": "particles", "strategy": lambda vertices, faces, count: np.arange(len(vertices)) % 2}, 0, unmeasured),
     ):

@@ -99,8 +99,8 @@ struct Weld {
     for (std::uint32_t vertex = 0; vertex < target.size(); ++vertex) {
       const auto at = kept[target[vertex]];
       if (at == vertex) continue;
-      const double distance = std::sqrt(CGAL::squared_distance(original[at], original[vertex]));
-      if (distance > parted.distance) parted = {frame, at, vertex, distance};
+      const double apart = std::sqrt(CGAL::squared_distance(original[at], original[vertex]));
+      if (apart > parted.distance) parted = {frame, at, vertex, apart};
       for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(original[at][axis]));
     }
     if (parted.distance > distance + 0x1p-21 * largest) return parted;
@@ -110,14 +110,14 @@ struct Weld {
 
 /// Which vertices become one.
 Weld weld(std::span<const Point> points, double distance) {
-  Weld weld{.distance = distance, .kept = {}, .target = {}};
+  Weld made{.distance = distance, .kept = {}, .target = {}};
   Kept_vertices kept(distance);
   for (std::uint32_t vertex = 0; vertex < points.size(); ++vertex) {
     const auto near = kept.near(points[vertex]);
-    weld.target.push_back(near ? *near : kept.add(points[vertex]));
-    if (!near) weld.kept.push_back(vertex);
+    made.target.push_back(near ? *near : kept.add(points[vertex]));
+    if (!near) made.kept.push_back(vertex);
   }
-  return weld;
+  return made;
 }
 
 void drop_degenerate_faces(Animation& animation) {
