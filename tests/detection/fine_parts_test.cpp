@@ -72,12 +72,16 @@ TEST(Fine_parts, of_two_surfaces_give_the_same_contacts_at_any_size_for_about_th
         const Collisions found = find_collisions(fine_a, fine_b);
         EXPECT_EQ(found.faces, truth.faces);
         EXPECT_LE(found.statistics.leaf_tests, 4 * truth.statistics.leaf_tests);
-        if (hall != Hall::row_of_faces)  // its leaves have faces of any size
+        // Leaves of a row of faces have faces of any size.
+        if (hall != Hall::row_of_faces) {
           EXPECT_LE(found.statistics.exact_tests, 2 * truth.statistics.exact_tests);
+        }
         EXPECT_TRUE(find_collisions(fine_a, fine_b, {.contacts = Contact_query::yes_no}).collide);
         const Frame frame = frame_of({&fine_a, &fine_b}, {});
         EXPECT_EQ(frame.face_pairs, truth.faces);
-        if (hall != Hall::row_of_faces) EXPECT_LE(frame.statistics.exact_tests, 2 * truth.statistics.exact_tests);
+        if (hall != Hall::row_of_faces) {
+          EXPECT_LE(frame.statistics.exact_tests, 2 * truth.statistics.exact_tests);
+        }
       });
     }
 }
@@ -127,7 +131,9 @@ TEST(Fine_parts, of_one_surface_give_the_same_self_collisions_at_any_size) {
         EXPECT_EQ(find_self_collisions(fine).faces, truth);
         const Frame frame = frame_of({&fine}, options);
         EXPECT_EQ(frame.face_pairs, truth);
-        if (hall != Hall::row_of_faces) EXPECT_LE(frame.statistics.exact_tests, 2 * found.statistics.exact_tests);
+        if (hall != Hall::row_of_faces) {
+          EXPECT_LE(frame.statistics.exact_tests, 2 * found.statistics.exact_tests);
+        }
       });
     }
 }
