@@ -64,8 +64,14 @@ void check_input_is_kept(const Convert_command& command, const Animation& animat
   std::error_code unknown;
   std::set<fs::path> inputs;
   for (const auto& file : animation.files) inputs.insert(fs::weakly_canonical(file, unknown));
+  const auto folder = fs::weakly_canonical(fs::absolute(command.output).parent_path(), unknown);
+  const auto place_of = [&](const fs::path& file) {
+    // There can be a million. Only a link lies elsewhere than its name says.
+    return fs::is_symlink(fs::symlink_status(file, unknown)) ? fs::weakly_canonical(file, unknown)
+                                                             : folder / file.filename();
+  };
   for (const auto& file : files_of(command.output, frames))
-    if (inputs.contains(fs::weakly_canonical(file, unknown)))
+    if (inputs.contains(place_of(file)))
       throw Bad_argument(fmt::format(
           "{}: is a file of the input, which is never overwritten: give another name for OUT", file.string()));
 }
