@@ -33,6 +33,8 @@ py::object find_collisions(const py::object& mesh_a, const py::object& mesh_b, c
 py::object self_collisions(const py::object& mesh, const py::object& faces, const py::object& file_vertex,
                            const py::kwargs& keywords) {
   const auto settings = detector_settings(keywords);
+  if (settings.options.exact.self_tolerance > 0)
+    throw Bad_argument("self_tolerance compares with the object at rest, which one call does not know: use a Detector");
   const Asked_mesh asked(mesh, faces, "mesh");
   std::vector<std::uint32_t> doubled;
   if (!file_vertex.is_none()) doubled = indices_of(file_vertex, "file_vertex");
@@ -121,7 +123,7 @@ void add_one_call(py::module_& module) {
              py::arg("file_vertex") = py::none(),
              "Finds the faces of one mesh that intersect each other: a Pair, with a = b, which is true if there are\n"
              "some. Faces that share a vertex count where they intersect beyond it. Options as of Detector, mode\n"
-             "'exact'; those about two objects change nothing.\n\n"
+             "'exact'; those about two objects change nothing. `self_tolerance` needs a Detector.\n\n"
              "file_vertex: (V,) int; vertices with the same number are one, as at the seams of a mesh that stores them twice.");
   module.def(
       "closest",

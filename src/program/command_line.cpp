@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -137,8 +138,10 @@ std::optional<int> parse(CLI::App& program, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const bool asked_for_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
     if (asked_for_help) {
+      errno = 0;
       const int code = program.exit(error);
-      if (!std::cout.flush()) throw Bad_output("the standard output cannot be written");
+      if (!std::cout.flush() && errno == EPIPE) return exit_code::reader_left;
+      if (!std::cout) throw Bad_output("the standard output cannot be written");
       return code;
     }
     auto complaint = unknown_word(program, std::span(argv, static_cast<std::size_t>(argc)).subspan(1));

@@ -38,7 +38,7 @@ void add_strategy_options(CLI::App& app, Strategy_choice& choice, const char* se
       ->check(one_word_of(names))
       ->capture_default_str();
   app.add_option("--seed", choice.settings.seed, seed_of)
-      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description("0 or more"))
+      ->check(CLI::Range(std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max()).description("0 or more"))
       ->capture_default_str();
   auto& options = choice.settings.lbg;
   app.add_option("--normal-weight", options.features.normal_weight,

@@ -19,9 +19,10 @@ namespace {
 CLI::Validator distance_check() { return finite_number(0, std::numeric_limits<double>::max(), "0 or more"); }
 
 void add_exact_options(CLI::App& app, Exact_options& options) {
-  app.add_option("--within", options.tolerance,
-                 "Modes exact and certified: report face pairs nearer than this, and which objects are near; 0: faces "
-                 "that intersect")
+  app.add_option(
+         "--within", options.tolerance,
+         "Modes exact and certified: report face pairs of two objects nearer than this, and which objects are near; "
+         "0: faces that intersect")
       ->check(distance_check())
       ->capture_default_str();
   auto* const self = app.add_flag("--self", options.self_collision,
@@ -67,9 +68,11 @@ void add_mode(CLI::App& app, Detector_options& options) {
                                 {"certified", Mode::certified}}))
       ->type_name("MODE")
       ->default_str("exact");
-  app.add_option("--particles", options.particles,
-                 "Particles per object; 0: the number of objects that can touch it at once, at least 12. Modes exact "
-                 "and certified: regions at the top of its tree; 0: 12 with a strategy or a setting of it, else none")
+  app.add_option(
+         "--particles", options.particles,
+         "Particles per object; 0: what the scene says, else the number of objects that can touch it at once, at least "
+         "12. Modes exact and certified: regions at the top of its tree; 0: what the scene says, else 12 with a "
+         "strategy or a setting of it, else none")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
       ->capture_default_str();
 }

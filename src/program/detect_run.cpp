@@ -61,6 +61,21 @@ struct Surface_now {
   Box box = {};
 };
 
+/// What is asked of two objects would be ignored where there is one.
+/// @throws Bad_argument  names the option
+void check_pairs_can_answer(const Scene& scene, const Detect_command& command) {
+  const Exact_options& exact = command.options.exact;
+  if (scene.objects.size() != 1 || !exact.self_collision) return;
+  const auto refuse = [](bool is_given, const char* option, const char* hint = "") {
+    if (is_given) throw Bad_argument(fmt::format("{} is about two objects, and there is one only{}", option, hint));
+  };
+  refuse(exact.tolerance > 0, "--within", ": for faces of one object take --self-within");
+  refuse(exact.containment, "--containment");
+  refuse(exact.parting, "--parting");
+  refuse(command.closest, "--closest");
+  refuse(command.truth, "--truth");
+}
+
 }  // namespace
 
 Detect_run::Detect_run(const Detect_command& command)
@@ -68,6 +83,7 @@ Detect_run::Detect_run(const Detect_command& command)
   summary_.measurement.setting.options = command.options;
   if (command.impacts && scene_.frames == 1)
     throw Bad_argument("--impacts is about what happens between frames, and there is one only");
+  check_pairs_can_answer(scene_, command);
   if (command.merge_shards) return;  // others have played the frames
   asks_once_ = asks_once(command, scene_);
   if (command.options.mode == Mode::certified) compute_motions();

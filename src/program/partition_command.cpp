@@ -12,6 +12,7 @@
 #include "io/files/small_text.h"
 #include "io/gltf/gltf_scene.h"
 #include "lodestone/io/files/atomic_file.h"
+#include "lodestone/io/files/numbered_files.h"
 #include "lodestone/io/meshes/file_faces.h"
 #include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/results/coloured_ply.h"
@@ -82,7 +83,7 @@ Json statistics(const Mesh_file& file, const Divided& divided, const Partition_c
           {"labels", labels_json(file, divided)},
           {"iterations", statistics.iterations},
           {"distance_evaluations", statistics.distance_evaluations},
-          {"pieces_before_repair", statistics.repair.parts_before},
+          {"islands_before_repair", statistics.repair.parts_before},
           {"islands_joined", statistics.repair.islands_joined},
           {"regions_added", statistics.repair.regions_added},
           {"measures", to_json(divided.measures)},
@@ -96,8 +97,7 @@ Page page_of(const Mesh_file& file, const Divided& divided, const Partition_comm
   Json numbers = statistics(file, divided, command);
   numbers.erase("seconds");  // so that equal partitions give equal pages
   numbers.erase("labels");   // the page has them
-  Page page(
-      {.kind = Page_kind::partition, .title = shown_name(command.mesh), .strategy = command.strategy.name});
+  Page page({.kind = Page_kind::partition, .title = shown_name(command.mesh), .strategy = command.strategy.name});
   page.set_regions(
       page.add_object(command.mesh.stem().string(), numbering.vertex_count(), {corners.begin(), corners.end()}),
       divided.labels);
@@ -149,7 +149,11 @@ void check_input_is_kept(const Partition_command& command, const std::vector<std
 /// A mesh, a mesh or an object of a scene in its first frame, or a shape.
 Mesh_file read_input(const Partition_command& command) {
   auto object = named_object(command.mesh, command.reading);
-  if (mesh_and_cache(command.mesh) || is_gltf(command.mesh))
+  std::error_code unknown;
+  const bool is_sequence = is_pattern(command.mesh) && !std::filesystem::is_regular_file(command.mesh, unknown);
+  if (!object && lower_case(command.mesh.extension().string()) == ".json")
+    object = object_of_scene(command.mesh, "", command.reading);
+  else if (!object && (is_sequence || mesh_and_cache(command.mesh) || is_gltf(command.mesh)))
     object = read_object("", command.mesh, command.reading.limits);
   if (!object) {
     auto file = read_mesh(command.mesh, command.reading.limits);
@@ -170,6 +174,7 @@ Mesh_file read_input(const Partition_command& command) {
 int run(const Partition_command& command) {
   if (!command.out.empty() && lower_case(command.out.extension().string()) != ".ply")
     throw Bad_argument(command.out.string() + ": the coloured mesh is written as .ply");
+  if (command.json == "-") throw Bad_argument("--json writes a file: give it a name");
   check_results_differ(command);
   std::optional<Page_file> page;
   if (!command.html.empty()) page.emplace(command.html, command.json);

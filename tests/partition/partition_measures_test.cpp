@@ -73,7 +73,7 @@ TEST(Partition_measures, normals_of_a_whole_sphere_deviate_as_they_do_from_any_a
   EXPECT_NEAR(m.ball_volume, 2, 0.1);
 }
 
-TEST(Partition_measures, the_balance_reflects_a_larger_region_and_pieces_are_counted_before_repair) {
+TEST(Partition_measures, the_balance_reflects_a_larger_region_and_islands_are_counted_before_repair) {
   auto labels = halves();
   for (int v = 0; v < 24; ++v) labels[v] = v < 18 ? 0 : 1;
   auto partition = given(labels, 2);

@@ -168,6 +168,14 @@ TEST_F(Faults, a_reader_that_leaves_ends_the_program_quietly_after_the_results_a
   EXPECT_EQ(content_of(folder.path() / "out"), (std::set<std::string>{"frames.jsonl", "summary.json"}));
 }
 
+TEST_F(Faults, a_reader_that_leaves_ends_help_quietly) {
+  for (const std::string words : {"--help", "--help-all", "detect --help", "--version"}) {
+    SCOPED_TRACE(words);
+    const auto result = run_in_shell("(sleep 0.2; \"$0\" " + words + "; echo $? >&2) | true");
+    EXPECT_EQ(result.err, "141\n");
+  }
+}
+
 TEST_F(Faults, a_standard_error_that_cannot_be_written_keeps_the_exit_code) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   EXPECT_EQ(run_in_shell("\"$0\" detect none.json 2> /dev/full").exit_code, 3);

@@ -90,7 +90,8 @@ TEST_F(Messages, about_a_number_that_is_not_finite_or_not_in_its_range_name_its_
 }
 
 TEST_F(Messages, name_the_option_that_no_file_takes) {
-  expect_error(run_program({"convert", mesh, path("b.obj"), "--fps", "50"}), 2, "b.obj: --fps needs a glTF file to read, or");
+  expect_error(run_program({"convert", mesh, path("b.obj"), "--fps", "50"}), 2,
+               "b.obj: --fps needs a glTF file to read, or");
   expect_success(run_program({"convert", mesh, path("b.glb"), "--fps", "50"}));
   expect_success(run_program({"convert", mesh, path("b.mdd"), "--fps", "50", "--quiet"}));
   expect_success(run_program({"convert", path("b.glb"), path("c.obj"), "--fps", "50", "--quiet"}));
@@ -134,6 +135,34 @@ TEST_F(Messages, name_the_option_that_the_mode_ignores_and_the_modes_that_take_i
   expect_error(detect({"--mode", "exact", "--collision-distance", "2"}), 2,
                "--collision-distance needs --mode particles or senin");
   expect_error(detect({"--mode", "senin", "--growth", "2"}), 2, "--growth needs --mode particles");
+}
+
+TEST_F(Messages, name_the_option_that_is_about_two_objects_where_there_is_one) {
+  const std::vector<std::vector<std::string>> of_pairs{
+      {"--within", "1"}, {"--containment"}, {"--parting"}, {"--closest"}, {"--truth"}};
+  for (auto option : of_pairs) {
+    const auto message = option[0] + " is about two objects, and there is one only";
+    auto with_another = option;
+    option.insert(option.begin(), {"detect", mesh, "--self"});
+    expect_error(run_program(option), 2, message);
+    with_another.insert(with_another.begin(), {"detect", mesh, mesh, "--self"});
+    EXPECT_EQ(run_program(with_another).err.find(message), std::string::npos);
+  }
+  expect_error(run_program({"detect", mesh, "--self", "--within", "1"}), 2, "take --self-within");
+}
+
+TEST_F(Messages, say_that_a_mesh_is_named_already) {
+  const std::vector<std::vector<std::string>> commands{{"info", "a.off+a.pc2"}, {"convert", "a.off+a.pc2", "b.pc2"}};
+  for (auto command : commands) {
+    command.insert(command.end(), {"--mesh", mesh});
+    expect_error(run_program(command), 2, "a.off+a.pc2: names its mesh already, a.off");
+  }
+}
+
+TEST_F(Messages, of_a_seed_tell_the_range_that_holds) {
+  const auto detect = [&](const std::string& seed) { return run_program({"detect", mesh, mesh, "--seed", seed}); };
+  expect_success(detect("18446744073709551615"));
+  for (const auto* seed : {"-1", "18446744073709551616", "one"}) expect_error(detect(seed), 2, "--seed");
 }
 
 TEST_F(Messages, name_the_option_that_has_no_effect_with_meetings_or_without) {

@@ -57,6 +57,24 @@ TEST_F(Partition_program, writes_a_mesh_with_the_same_counts_and_positions) {
   EXPECT_EQ(content_of(folder.path() / "new"), (std::set<std::string>{"coloured.ply", "stats.json"}));
 }
 
+TEST_F(Partition_program, divides_the_first_of_numbered_files_and_the_only_object_of_a_scene) {
+  const std::string bytes = read_bytes(mesh);
+  folder.write("ball_1.ply", bytes), folder.write("ball_2.ply", bytes);
+  const auto scene = folder.write("one.json", R"({"objects": [{"name": "ball", "mesh": "sphere.ply"}]})");
+  for (const auto& input : {(folder.path() / "ball_#.ply").string(), scene.string()}) {
+    SCOPED_TRACE(input);
+    expect_success(run_program({"partition", input, "--out", ply.string()}));
+    EXPECT_EQ(read_mesh(ply).mesh.number_of_vertices(), vertices);
+  }
+  const auto two = folder.write("two.json", R"({"objects": [{"name": "a", "mesh": "sphere.ply"},
+                                                            {"name": "b", "mesh": "sphere.ply"}]})");
+  expect_error(run_program({"partition", two.string()}), 2, "#NAME: a, b");
+  const auto second = folder.path() / "ball_2.ply";
+  expect_error(run_program({"partition", (folder.path() / "ball_#.ply").string(), "--out", second.string()}), 2,
+               "never overwritten");
+  expect_error(run_program({"partition", mesh.string(), "--json", "-"}), 2, "--json writes a file");
+}
+
 TEST_F(Partition_program, divides_a_shape_and_an_object_of_a_scene_in_its_first_frame) {
   expect_success(run_program({"partition", "shape:{\"icosphere\": {\"frequency\": 8}}", "--out", ply.string()}));
   EXPECT_EQ(read_mesh(ply).mesh.number_of_vertices(), vertices);

@@ -66,6 +66,13 @@ def test_options_are_checked(arguments, error, text):
         lodestone.Detector(**arguments)
 
 
+def test_a_distance_within_one_object_needs_a_detector_that_knows_it_at_rest():
+    with pytest.raises(lodestone.BadArgument, match="use a Detector"):
+        lodestone.self_collisions(sphere(), self_tolerance=0.1, self_collision=True)
+    with pytest.raises(lodestone.BadArgument, match="self_tolerance"):
+        lodestone.self_collisions(sphere(), self_tolerance=0.1)
+
+
 def test_numbers_of_objects_and_frames_are_integers(tmp_path):
     detector = lodestone.Detector()
     ball = detector.add(sphere())

@@ -131,8 +131,11 @@ std::optional<Mesh_and_cache> mesh_and_cache(const fs::path& input) {
 }
 
 Animation read_animation(const fs::path& input, const Animation_options& options) {
-  if (const auto parts = mesh_and_cache(input); parts && options.mesh.empty())
-    return cache(parts->cache, parts->mesh, options.limits);
+  if (const auto parts = mesh_and_cache(input)) {
+    if (options.mesh.empty()) return cache(parts->cache, parts->mesh, options.limits);
+    throw Bad_argument(fmt::format("{}: names its mesh already, {}: no other is needed beside it", input.string(),
+                                   parts->mesh.string()));
+  }
   if (is_cache(input)) return cache(input, options.mesh, options.limits);
   if (!options.mesh.empty())
     throw Bad_argument(fmt::format("{}: only a point cache needs a mesh beside it", input.string()));

@@ -122,7 +122,7 @@ class Page {
 
 /// Frames of a scene per frame of its page: 1, unless the page would have too many frames.
 /// @param vertices  of all objects together
-/// @param most      maximum number of frames on the page; 0: as many as have 5 million positions together (about 15 MB
+/// @param most      maximum number of frames on the page; 0: as many as have 5 million positions together (10 to 35 MB
 ///                  of page), and at least one
 std::size_t page_frame_step(std::size_t frames, std::size_t vertices, std::size_t most = 0);
 
