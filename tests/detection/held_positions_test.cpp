@@ -151,6 +151,24 @@ TEST(Held_positions, changes_through_the_detector_are_noticed) {
   }
 }
 
+TEST(Held_positions, a_promise_counts_for_an_object_that_has_not_been_posed) {
+  const auto a = potato(6), far = sphere(4, 1, {1000, 0, 0});
+  auto b = potato(6, 2);
+  const Box_promise somewhere([](Region_index, const Aabb&) {
+    return Aabb{.low = {-20, -20, -20}, .high = {20, 20, 20}};
+  });
+  Detector<> detector({.mode = Mode::certified});
+  shift(b, 9);
+  add_all(detector, {&a, &b, &far});
+  detector.promise(1, somewhere);
+  EXPECT_FALSE(detector.detect().collides());
+  shift(b, -9);
+  const auto hold = detector.hold_positions();
+  EXPECT_FALSE(detector.within(1, 2, 1));  // looks at no more than what is promised of the whole
+  detector.promise(1, somewhere);
+  expect_contacts(detector.detect(0, 1), 0, 1, exhaustive_face_pairs(a, b));
+}
+
 TEST(Held_positions, an_update_reads_a_moved_mesh) {
   Counted_scene scene;
   const auto hold = scene.detector.hold_positions();

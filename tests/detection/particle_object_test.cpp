@@ -422,6 +422,28 @@ std::vector<std::uint32_t> faces_around(const Surface_mesh& mesh, std::uint32_t 
   return faces;
 }
 
+TEST(Particle_object, closes_its_seams_anew_where_they_are_when_they_are_closed_again) {
+  const Surface_mesh whole = sphere(3), apart = flat_shaded(whole);
+  Counted_object counted(apart);
+  const std::size_t all_joined = num_vertices(apart) - num_vertices(whole);
+  const auto lift_first_face = [&](double height) {
+    for (const auto corner : {0U, 1U, 2U}) {
+      const Surface_mesh::Vertex_index v(corner);
+      const Point& p = apart.point(v);
+      counted.mesh.point(v) = Point(p.x(), p.y(), p.z() + height);
+    }
+  };
+  const auto joined = [&] {
+    counted.object.close_seams(counted.object.read_positions());
+    return counted.object.joined_vertices();
+  };
+  for (int call = 0; call < 3; ++call) EXPECT_EQ(joined(), all_joined) << call;
+  lift_first_face(2);
+  EXPECT_EQ(joined(), all_joined - 3);
+  lift_first_face(0);
+  EXPECT_EQ(joined(), all_joined);
+}
+
 TEST(Scattered_object, the_patch_around_a_particle_follows_it) {
   Counted_object counted(potato(8));
   counted.scatter(6, {.rings = 2});

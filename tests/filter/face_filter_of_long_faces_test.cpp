@@ -140,6 +140,28 @@ TEST(Face_filter_of_long_faces, keeps_all_that_are_nearer_than_the_margin) {
   EXPECT_GT(near, 1000U) << "of one in eight";
 }
 
+/// All faces are in the plane x + y + z = 0, and those of one leaf end so far away that a float cannot hold all digits
+/// of their corners: rounded, they leave the plane by more than the small ones measure.
+TEST(Face_filter_of_long_faces, keeps_small_faces_in_the_plane_of_others_that_reach_far_away) {
+  constexpr std::uint32_t small_faces = 32, long_faces = 64;  // so many that slabs are compared first
+  std::mt19937_64 random(4);
+  const auto in_plane = [](double x, double y) { return Point(x, y, -x - y); };
+  Single_leaf small(small_faces), long_ones(long_faces);
+  for (std::uint32_t i = 0; i < small_faces; ++i) {
+    const double x = i % 8, y = i / 8;  // multiples of 1/8 near the origin
+    small.set(i, {in_plane(x / 8, y / 8), in_plane((x + 1) / 8, y / 8), in_plane(x / 8, (y + 1) / 8)});
+  }
+  for (std::uint32_t i = 0; i < long_faces; ++i) {
+    // Around the origin in whole numbers, which the sum of two of them is too.
+    const auto far = [&] { return std::ldexp(1.0, 30) + static_cast<double>(random() >> 36); };
+    long_ones.set(i, {in_plane(-far(), -far()), in_plane(4 * far(), -far()), in_plane(-far(), 4 * far())});
+  }
+  small.refit(), long_ones.refit();
+  EXPECT_TRUE(triangles_intersect(small.triangle(0), long_ones.triangle(0)));
+  EXPECT_EQ(candidate_pairs(small.view(), long_ones.view(), 0).size(), small_faces * long_faces);
+  EXPECT_EQ(candidate_pairs(long_ones.view(), small.view(), 0).size(), small_faces * long_faces);
+}
+
 /// A tilted rod of long faces, whose box holds a small patch beside it: no pair is left.
 TEST(Face_filter_of_long_faces, parts_a_rod_from_what_its_box_contains) {
   constexpr std::uint32_t sides = 64;

@@ -245,6 +245,22 @@ TEST(Repair_islands, the_largest_components_become_regions_where_not_all_may) {
   EXPECT_EQ(of_large.size(), 40U);
 }
 
+TEST(Repair_islands, tells_how_many_parts_stay_beyond_the_limit_of_regions) {
+  // A strip with an island, and 100 loose triangles, of which 64 may become regions.
+  std::vector<Corners> faces = grid_faces(6, 2);
+  Labels labels = strip_labels({0, 0, 0, 1, 0, 1});
+  for (int triangle = 0; triangle < 100; ++triangle) {
+    const auto vertex = static_cast<std::uint32_t>(labels.size());
+    faces.push_back({vertex, vertex + 1, vertex + 2});
+    labels.resize(labels.size() + 3, 1);
+  }
+  const auto vertices = static_cast<std::uint32_t>(labels.size());
+  const auto repair = repair_islands(vertex_graph(vertices, faces), labels, 2);
+  EXPECT_EQ(repair.regions_added, 64U);
+  EXPECT_EQ(repair.islands_left, 100U - 64 - 1);
+  EXPECT_EQ(count_parts(vertex_graph(vertices, faces), labels), repair.regions + repair.islands_left);
+}
+
 TEST(Drop_regions_without_edges, renumbers_the_others_without_gaps) {
   const std::vector<Corners> faces{{0, 1, 2}, {2, 1, 3}};
   Labels labels{3, 3, 1, 1, 0, 2, 3};

@@ -86,6 +86,21 @@ TEST(Sample, that_misses_rare_values_does_not_cost_regions) {
   EXPECT_EQ(quantise(vectors, 9, {.sample = 1}).code_vectors.rows(), 6);
 }
 
+TEST(Sample, whose_code_vectors_are_partly_equal_leaves_no_cell_empty) {
+  // The published split of the cell that holds nothing but tens gives 15 and 5. All tens go to 15, then one of them to
+  // the empty cell of 5: after the only iteration two code vectors are 10, of which the second gets no vectors.
+  Feature_vectors vectors(600, 1);
+  vectors << Feature_vectors::Constant(150, 1, 10), Feature_vectors::Constant(225, 1, -1),
+      Feature_vectors::Constant(225, 1, -2);
+  for (const auto search : {Nearest_search::bounded, Nearest_search::plain}) {
+    const auto result = quantise(
+        vectors, 3,
+        {.split = 0.5, .split_rule = Split::multiplicative, .search = search, .sample = 1, .max_iterations = 1});
+    EXPECT_EQ(result.code_vectors.rows(), 3);
+    expect_means_of_full_cells(vectors, result);
+  }
+}
+
 TEST(Sample, gives_the_same_bits_on_any_number_of_threads_and_with_either_search) {
   for (const std::size_t cells : {2, 11, 64}) {
     const auto vectors = seeded_vectors(30003, 6, cells);

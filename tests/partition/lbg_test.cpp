@@ -182,6 +182,18 @@ TEST(Quantise, bounded_and_plain_search_give_equal_results) {
       }
 }
 
+TEST(Quantise, counts_the_distances_of_every_iteration_and_of_the_assignment_after_training_on_a_sample) {
+  const std::size_t count = 2000, cells = 6;
+  const auto vectors = seeded_vectors(count, 3, 8);
+  for (const std::size_t sample : {0, 900}) {
+    const auto result = quantise(vectors, cells, {.search = Nearest_search::plain, .sample = sample});
+    std::size_t expected = sample > 0 ? count * cells : 0;
+    for (const auto& run : result.runs)
+      expected += run.distortion.size() * (sample > 0 ? sample : count) * run.code_vectors;
+    EXPECT_EQ(result.distance_evaluations, expected) << sample;
+  }
+}
+
 TEST(Quantise, nothing_to_quantise_and_options_out_of_range_are_refused) {
   const auto vectors = seeded_vectors(10, 3, 1);
   EXPECT_THROW(quantise(Feature_vectors(0, 3), 2), Bad_argument);

@@ -51,6 +51,19 @@ TEST(Assign_plain, takes_the_nearest_code_vector_and_the_lowest_index_of_equally
   EXPECT_EQ(assignment.distance_evaluations, 12U);
 }
 
+TEST(Bounded_assignment, counts_each_vector_with_each_code_vector_where_no_bound_spares_a_distance) {
+  // All vectors are as far from all six code vectors: 19 of them are two whole blocks and a part of one.
+  const Feature_vectors vectors = Feature_vectors::Zero(19, 3);
+  Feature_vectors codes(6, 3);
+  codes << Eigen::Matrix3d::Identity(), -Eigen::Matrix3d::Identity();
+  for (const Region_index labels : {1, 2}) {  // a block whose vectors share a label is searched in another way
+    Assignment assignment;
+    for (Region_index v = 0; v < 19; ++v) assignment.labels.push_back(v % labels);
+    Bounded_assignment(vectors).assign(codes, assignment);
+    EXPECT_EQ(assignment.distance_evaluations, 19U * 6) << labels;
+  }
+}
+
 TEST(Bounded_assignment, equals_the_plain_loop_on_random_vectors) {
   std::mt19937_64 random(1);
   for (const Eigen::Index components : {3, 6, 7, 10})

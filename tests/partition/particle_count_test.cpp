@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "support/special_numbers.h"
 #include "support/test_meshes.h"
@@ -123,6 +124,47 @@ TEST(Sphere_collection, keeps_at_most_the_requested_parts_and_none_below_the_sma
   auto mesh = sphere(10);
   append(mesh, sphere(1, 0.1, {5, 0, 0}));  // 6 of 408 vertices
   EXPECT_EQ(spheres_of(mesh, {.smallest_part = 0.02}).size(), 1U);
+}
+
+TEST(Sphere_collection, keeps_the_largest_parts_in_the_order_of_their_lowest_vertices) {
+  Surface_mesh mesh;
+  for (const int size : {6, 8, 5, 9, 7}) append(mesh, sphere(size, size, {20.0 * size, 0, 0}));
+  std::vector<double> radii;
+  for (const auto& sphere : spheres_of(mesh, {.most_parts = 3})) radii.push_back(std::round(sphere.radius));
+  EXPECT_EQ(radii, (std::vector<double>{8, 9, 7}));
+}
+
+/// A strip, one unit wide, of `columns` pairs of vertices one unit apart, folded upwards along one of these pairs.
+Surface_mesh folded_strip(std::uint32_t columns, std::uint32_t fold, double degrees) {
+  const double angle = degrees * std::numbers::pi / 180;
+  auto mesh = grid(columns, 2);
+  deform(mesh, [&](const Point& p) {
+    const double beyond = std::max(0.0, p.x() - fold);
+    return Point(p.x() - beyond + beyond * std::cos(angle), p.y(), beyond * std::sin(angle));
+  });
+  return mesh;
+}
+
+TEST(Sphere_collection, a_vertex_is_critical_if_its_normal_turns_by_more_than_the_angle_of_a_crease) {
+  // A vertex of the fold has two faces on one side and one on the other, so its normal is that of 2 m + n. From n it
+  // turns by c, where 2 sin(fold - c) = sin c.
+  for (const double crease : {20.0, 40.0, 75.0}) {
+    const double fold = crease + std::asin(std::sin(crease * std::numbers::pi / 180) / 2) * 180 / std::numbers::pi;
+    EXPECT_EQ(spheres_of(folded_strip(21, 8, fold - 0.1), {.crease_degrees = crease}).size(), 1U) << crease;
+    const auto parts = spheres_of(folded_strip(21, 8, fold + 0.1), {.crease_degrees = crease});
+    ASSERT_EQ(parts.size(), 2U) << crease;
+    // Critical are the fold and, on each side of it, the vertex whose neighbour's normal leans to the other side.
+    EXPECT_NEAR(parts[0].radius, std::hypot(7, 1) / 2, 1e-9);
+    EXPECT_NEAR(parts[1].radius, std::hypot(11, 1) / 2, 1e-9);
+  }
+}
+
+TEST(Sphere_collection, no_crease_turns_a_normal_by_more_than_180_degrees) {
+  // Folded flat onto itself: the normals of a corner of the small face and of its neighbours are opposite.
+  auto mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-9, 0, 0}, {-9, 9, 0}}, {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}});
+  const auto spheres = spheres_of(mesh, {.crease_degrees = 180});
+  ASSERT_EQ(spheres.size(), 1U);
+  EXPECT_NEAR(spheres[0].radius, bounding_sphere(Numbered_mesh(mesh).positions).radius, 1e-12);
 }
 
 TEST(Sphere_collection, a_surface_of_nothing_but_creases_is_one_sphere) {

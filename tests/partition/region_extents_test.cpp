@@ -172,6 +172,15 @@ TEST(Region_extent, of_a_region_round_a_tube_grows_with_the_tube_beyond_the_regi
   }
 }
 
+TEST(Region_extent, goes_on_where_the_farthest_vertex_is_more_than_half_as_far_again_as_the_border_beside) {
+  // Straight along X lies a vertex that is not on the border; the border is one unit away, 37 degrees beside X.
+  for (const double farthest : {1.49, 1.51}) {
+    Measured mesh(mesh_of({{0, 0, 0}, {farthest, 0, 0}, {0.8, 0.6, 0}}, {{0, 1, 2}}));
+    mesh.border = {false, false, true};
+    EXPECT_NEAR(lengths(mesh.extent(0))[0], farthest > 1.5 ? farthest : 1, 1e-15);
+  }
+}
+
 TEST(Region_extent, grows_with_the_square_of_a_uniform_scale) {
   const auto surface = potato(8);
   const Measured mesh(surface);

@@ -67,6 +67,13 @@ TEST(Sdf, smoothing_decides_whether_a_border_is_worth_its_cost) {
   EXPECT_EQ(number_of(segments_of(mesh, {.smoothing = 100})), 1U);
 }
 
+TEST(Sdf, borders_are_cheap_where_a_surface_is_concave) {
+  // The bridge and the balls meet at nearly right angles. A border there costs -log(1/2) where it is concave; where it
+  // is convex, -log(0.08/2), over four times as much, which is more than what the bridge gains by a segment of its own.
+  const auto mesh = dumbbell(1, 1, 0.15);
+  EXPECT_EQ(number_of(segments_of(mesh, {.smoothing = 1.7})), 3U);
+}
+
 TEST(Sdf, a_surface_of_uniform_thickness_is_one_segment_per_component) {
   EXPECT_EQ(number_of(segments_of(grid(12, 12))), 1U);  // a sheet: no ray hits anything
   EXPECT_EQ(number_of(segments_of(single_triangle())), 1U);

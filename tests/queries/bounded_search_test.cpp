@@ -7,8 +7,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <random>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "lodestone/mesh/errors.h"
 #include "support/arm.h"
@@ -86,6 +90,59 @@ TEST(Bounded_search, with_a_tolerance_finds_what_is_near) {
     }
   }
   EXPECT_GT(near_misses, 2U);
+}
+
+/// Points that are written where they are asked for one by one, and lie elsewhere once all are asked for.
+class Elsewhere final : public Position_source {
+ public:
+  explicit Elsewhere(const Skinned_points& points) : points_(&points), all_(3 * std::size_t{points.vertex_count()}) {}
+
+  std::uint32_t vertex_count() const override { return points_->vertex_count(); }
+  std::uint64_t pose_number() const override { return points_->pose_number(); }
+  Eigen::Vector3d operator()(std::uint32_t vertex) const override { return (*points_)(vertex); }
+  void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override {
+    points_->pose(vertices, coordinates);
+  }
+  void pose_all(std::span<double> coordinates) const override { points_->pose_all(coordinates); }
+  Coordinates all(std::span<double> /*memory*/) const override {
+    points_->pose_all(all_);
+    return all_;
+  }
+
+ private:
+  const Skinned_points* points_;
+  mutable std::vector<double> all_;
+};
+
+TEST(Bounded_search, shows_all_contacts_where_a_surface_is_posed_elsewhere_in_the_middle_of_a_visit) {
+  Arm a(long_potato(16, 1), false), b(long_potato(16, 2), false);
+  a.pose(0.3, {0, 0, 0});
+  b.pose(0.3, {0.3, 0.2, 0});
+  const auto truth = exhaustive_face_pairs(a.mesh, b.mesh);
+  const auto surface_of = [](Arm& arm, bool elsewhere) {
+    std::vector<std::unique_ptr<Node_bound>> bounds;
+    bounds.push_back(std::make_unique<Node_bound_of<const Skin_bound&>>(arm.bound));
+    std::unique_ptr<const Position_source> source;
+    if (elsewhere)
+      source = std::make_unique<Elsewhere>(arm.points);
+    else
+      source = std::make_unique<Computed_source<Skinned_points>>(arm.points);
+    return std::make_unique<Bounded_surface>(arm.tree, std::move(source), std::move(bounds));
+  };
+  for (const bool of_a : {false, true}) {
+    const auto surface_a = surface_of(a, of_a), surface_b = surface_of(b, !of_a);
+    std::vector<Face_pair> shown;
+    std::size_t before = 0;  // contacts that are shown before the surface is posed as a whole
+    Bounded_search().visit(*surface_a, *surface_b, 0, [&](Face_pair contact) {
+      shown.push_back(contact);
+      before += (of_a ? surface_a : surface_b)->all_posed() ? 0 : 1;
+      return Visit::go_on;
+    });
+    std::ranges::sort(shown);
+    EXPECT_EQ(shown, truth) << of_a;
+    EXPECT_GT(before, 0U) << of_a;
+    EXPECT_LT(before, shown.size()) << of_a;
+  }
 }
 
 TEST(Bounded_search, refuses_what_is_no_tolerance) {
@@ -331,6 +388,24 @@ TEST(Bounded_surface, compares_what_it_poses_with_the_boxes_that_were_in_use) {
   a.pose(0.5, {0, 0, 0});
   by_node.start_frame();
   EXPECT_EQ(by_node.violations(), 0U);
+}
+
+TEST(Bounded_surface, compares_a_leaf_that_it_poses_with_the_box_of_the_whole) {
+  Arm a(long_potato(20, 1), false);
+  a.pose(0.4, {0, 0, 0});
+  struct Lie_about_the_whole {
+    const Skin_bound& truth;
+    std::size_t node_count() const { return truth.node_count(); }
+    Aabb box(std::uint32_t node) const {
+      return node == 0 ? Aabb{.low = {900, 900, 900, 0}, .high = {901, 901, 901, 0}} : truth.box(node);
+    }
+  };
+  const Lie_about_the_whole lie{a.bound};
+  Bounded_surface surface(a.tree, a.points, lie);
+  surface.pose(3);
+  ASSERT_FALSE(surface.all_posed());
+  EXPECT_EQ(surface.violations(), 1U);
+  EXPECT_TRUE(surface.is_broken());
 }
 
 TEST(Bounded_surface, fits_a_node_when_all_leaves_below_it_have_been_posed) {

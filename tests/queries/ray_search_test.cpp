@@ -291,6 +291,27 @@ TEST(Ray_search, tells_where_it_meets_a_face_whose_depth_exceeds_the_greatest_do
   EXPECT_EQ(hit->point.y(), 0.25);
 }
 
+TEST(Ray_search, meets_a_face_at_the_greatest_double_in_a_point_that_is_finite) {
+  constexpr double greatest = std::numeric_limits<double>::max();
+  Face_soup wall;
+  wall.coordinates = {greatest, -greatest, -1, greatest, greatest, -1, greatest, 0, greatest};
+  wall.faces = {{0, 1, 2}};
+  const Posed_object object(wall, 2, false);
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> part(0.2, 0.9);
+  int hits = 0;
+  for (int i = 0; i < 200; ++i) {  // the depth, along the wall, is longer than the way to it, and both are rounded
+    const Eigen::Vector3d from(-0.1 * part(random) * greatest, -part(random) * greatest, 0);
+    const double slope = 1.1 / (1 + part(random));
+    const auto hit = first_hit(object.view(), Ray{from, {slope, 1, 0}});
+    if (!hit) continue;  // beyond the end of the wall
+    ++hits;
+    EXPECT_TRUE(hit->point.allFinite()) << i;
+    EXPECT_DOUBLE_EQ(hit->point.x(), greatest) << i;
+  }
+  EXPECT_GT(hits, 100);
+}
+
 TEST(Ray_search, refuses_what_is_no_ray) {
   const Posed_object object(Face_soup(single_triangle()), 2, false);
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
