@@ -50,7 +50,7 @@ const std::vector<Column>& partition_columns() {
   static const std::vector<Column> columns{
       {"distortion x 1000", {"distortion", "distortion", {}, 1000}},
       {"largest / mean", {"size_balance", "size_balance"}},
-      {"islands", {"islands_per_region", "islands_per_region"}},
+      {"parts", {"parts_per_region", "parts_per_region"}},
       {"border", {"border_length", "border_length"}},
       {"normals (deg)", {"normal_deviation", "normal_deviation"}, 1},
       {"radius", {"geodesic_radius", "geodesic_radius"}, 3},

@@ -43,9 +43,10 @@ namespace lodestone {
 /// Cost. The first query after `add` or `rebuild` builds: `add` itself only numbers the mesh, O(V + F). In mode `exact`
 /// each query then reads the objects that it is asked about, O(V), unless positions are held; in mode `certified` only
 /// where it looks. `detect` has in addition O(log F) openings for two objects that meet in one place, and a test for
-/// each pair of faces whose boxes overlap. So have `visit`, `within`, `closest` and `first_impact`; `parting` takes some
+/// each pair of faces whose boxes overlap. So have `visit`, `within`, `closest` and `first_impact`. `parting` takes some
 /// dozen searches of that kind. Rays, `closest_point`, `point_side` and `contains` take O(log F) where the surface is
-/// met in one place. What a frame costs in mode `particles` hardly depends on V: see `Particle_detection`.
+/// met in one place. In mode `particles` a frame reads few of the V positions; with meetings, the median frame grew with
+/// the square root of the number of faces in the experiment `scaling`.
 ///
 /// Functions of yours that a detector calls must not call it: visitors, point maps, strategies, promises. From there,
 /// every call that is not const throws Bad_argument, but for `ignore` and `hold_positions`.

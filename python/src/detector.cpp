@@ -202,7 +202,8 @@ Object_id Python_detector::add(const py::object& mesh, const py::object& faces, 
 
 Particle_setting Python_detector::particle_setting() {
   return look([&](auto&) {
-    return Particle_setting{.strategy = settings_.strategy.function ? "" : settings_.strategy.name,
+    const bool is_own = settings_.strategy.function != nullptr;
+    return Particle_setting{.strategy = is_own ? std::string_view() : std::string_view(settings_.strategy.name),
                             .lbg = settings_.strategy_settings.lbg,
                             .fewest_particles = fewest_particles_};
   });

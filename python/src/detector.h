@@ -185,7 +185,7 @@ class Python_detector {
   std::uint64_t poses() const;
 
   Detector_settings settings_;
-  std::size_t fewest_particles_ = 0;  ///< see Particle_setting
+  std::size_t fewest_particles_ = 0;  ///< of all objects ever added; see Particle_setting
   Deadlock_mutex mutex_;  ///< a visitor that calls the detector gets an error, not a deadlock
   bool reading_ = false;  ///< a query reads; who gets here then is its visitor
   std::vector<std::unique_ptr<Python_object>> objects_;  ///< null: removed

@@ -29,7 +29,7 @@ py::dict measures_of(const Python_partition& self) {
   py::dict measures;
   measures["distortion"] = m.distortion;
   measures["size_balance"] = m.size_balance;
-  measures["islands_per_region"] = m.islands_per_region;
+  measures["parts_per_region"] = m.parts_per_region;
   measures["border_length"] = m.border_length;
   measures["normal_deviation"] = m.normal_deviation;
   measures["geodesic_radius"] = m.geodesic_radius;
@@ -55,7 +55,7 @@ void add_partitions(py::module_& module) {
                              "How good it is: a dict. Smaller is better; no figure depends on the units of the mesh.\n"
                              "  distortion         mean squared distance to the region's mean in position + normal\n"
                              "  size_balance       vertices of the largest region over the mean\n"
-                             "  islands_per_region  before islands were repaired\n"
+                             "  parts_per_region  before islands were repaired\n"
                              "  border_length      of all borders, over the square root of the area\n"
                              "  normal_deviation   degrees between the normal of a face and that of its region\n"
                              "  geodesic_radius    from a particle to the farthest vertex of its region, in radii of the "

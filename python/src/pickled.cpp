@@ -158,7 +158,7 @@ void visit_partition(auto& archive, auto& made) {
   visit_list(archive, made.partition.labels);
   visit_list(archive, made.partition.particles);
   auto& m = made.measures;
-  visit_numbers(archive, made.partition.regions, m.regions, m.distortion, m.size_balance, m.islands_per_region,
+  visit_numbers(archive, made.partition.regions, m.regions, m.distortion, m.size_balance, m.parts_per_region,
                 m.border_length, m.normal_deviation, m.geodesic_radius, m.box_volume, m.ball_volume);
 }
 

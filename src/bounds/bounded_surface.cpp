@@ -109,13 +109,28 @@ void Bounded_surface::give_up() {
   pose_all();
 }
 
+/// Leaves share vertices, so posing that fails half-way may have overwritten those of leaves that were posed before.
+/// Nothing of this frame counts any more, whether or not the caller starts another.
+template <class Pose>
+auto Bounded_surface::or_start_over(const Pose& pose) {
+  try {
+    return pose();
+  } catch (...) {
+    ++frame_;
+    bounded_.clear();
+    violations_ = violations_settled_ = nodes_bounded_ = leaves_posed_ = vertices_posed_ = 0;
+    forget_pose();
+    throw;
+  }
+}
+
 void Bounded_surface::read(std::uint32_t leaf) {
   if (takes_long() || is_paused()) return give_up();
   const std::uint32_t node = layout().leaf_node(leaf);
   const Aabb promised = box(node), promised_whole = box(0);
   if (all_posed_) return;  // there were no bounds, or these two were too many
   const auto vertices = layout().vertices(leaf);
-  if (!in_memory_) positions_->pose(vertices, posed_);
+  if (!in_memory_) or_start_over([&] { positions_->pose(vertices, posed_); });
   check_finite(leaf);
   boxes_[node].enclose(layout().leaf_faces(leaf, tree_->coordinates()));
   if (!contains(promised, boxes_[node]) || !contains(promised_whole, boxes_[node])) ++violations_;
@@ -143,7 +158,8 @@ void Bounded_surface::fit_parents_of(std::uint32_t node) {
 
 void Bounded_surface::pose_all() {
   if (all_posed_) return;
-  const Coordinates coordinates = in_memory_ ? tree_->coordinates() : positions_->all(posed_);
+  const Coordinates coordinates =
+      in_memory_ ? tree_->coordinates() : or_start_over([&] { return positions_->all(posed_); });
   std::vector<Aabb> promised;
   promised.reserve(bounded_.size());
   for (const std::uint32_t node : bounded_) promised.push_back(boxes_[node]);

@@ -105,6 +105,8 @@ std::unique_ptr<Node_bound> Known_motion::promised_bound(std::size_t promise, co
   std::unique_ptr<Node_bound> bound;
   try {
     bound = promises_[promise](in_mesh);
+    if (bound->node_count() < in_mesh.layout.node_count())
+      throw Bad_argument("its bound was made for a tree of fewer nodes");
   } catch (const Bad_argument& misfit) {
     promises_.erase(promises_.begin() + static_cast<std::ptrdiff_t>(promise));
     throw Bad_argument("a promise about " + mesh.title() + " is dropped: " + misfit.what());

@@ -214,7 +214,7 @@ Partition_measures measure_partition(const Numbered_surface& surface, const Numb
   Partition_measures measures{.regions = partition.regions};
   measures.distortion = distortion(vectors, labels, partition.regions);
   measures.size_balance = size_balance(labels, partition.regions);
-  measures.islands_per_region =
+  measures.parts_per_region =
       static_cast<double>(partition.statistics.repair.parts_before) / static_cast<double>(partition.regions);
   measures.border_length = border_length(positions, faces, labels);
   measures.normal_deviation = normal_deviation(positions, faces, labels, partition.regions);

@@ -176,11 +176,10 @@ void note_joined(const Convert_command& command, const Animation& animation, con
 /// The faces of both follow one of them, so that the surface is not that of IN.
 void note_parted(const std::string& name, const Farthest_parted& farthest) {
   if (!farthest) return;
-  note(
-      fmt::format("{}: --weld makes vertices {} and {} (counted from 0) one, but frame {} moves them apart, by {:.3g}: "
-                  "the faces of "
-                  "both follow vertex {}",
-                  name, farthest->kept, farthest->merged, farthest->frame, farthest->distance, farthest->kept));
+  note(fmt::format(
+      "{}: --weld makes vertices {} and {} (counted from 0) one, but frame {} moves them apart by {:.3g}. The faces of "
+      "both follow vertex {}",
+      name, farthest->kept, farthest->merged, farthest->frame, farthest->distance, farthest->kept));
 }
 
 /// Files of an earlier, longer run would be read with those of this one.

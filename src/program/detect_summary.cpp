@@ -203,7 +203,7 @@ void print_pairs(const Run_subject& subject, const Run_summary& summary) {
   if (rows == 0 && omits)
     fmt::print("{}\n", many ? "No collision was found." : "No collision: no two objects came near each other.");
   if (rows == 0 && !omits) fmt::print("There is no pair of objects.\n");
-  if (capped > 0) fmt::print("Face pairs were cut off by --most-contacts {}.\n", counted(capped, "time"));
+  if (capped > 0) fmt::print("--most-contacts cut off face pairs {}.\n", counted(capped, "time"));
   if (unfinished > 0)
     fmt::print("The budget of openings was used up {}, and contacts can be missing: --opening-budget raises it.\n",
                counted(unfinished, "time"));

@@ -11,7 +11,7 @@ namespace lodestone {
 inline nlohmann::ordered_json to_json(const Partition_measures& measures) {
   return {{"distortion", measures.distortion},
           {"size_balance", measures.size_balance},
-          {"islands_per_region", measures.islands_per_region},
+          {"parts_per_region", measures.parts_per_region},
           {"border_length", measures.border_length},
           {"normal_deviation", measures.normal_deviation},
           {"geodesic_radius", measures.geodesic_radius},

@@ -53,9 +53,8 @@ std::optional<std::string> missing_note(const Detector_options& options, const P
   const auto missed = expected_misses(options, setting);
   if (!missed)
     return fmt::format(
-        "Mode {} may miss collisions. With these options it may miss more than by default; the experiment modes has "
-        "not "
-        "measured how many. Mode exact never misses any.",
+        "Mode {} may miss collisions; how many with these options, the experiment modes has not measured. Mode exact "
+        "never misses any.",
         name_of(options.mode));
   const std::string range =
       missed->most > 0 ? fmt::format("{:.0f} to {:.0f} %", 100 * missed->least, 100 * missed->most) : "none";

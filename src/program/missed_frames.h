@@ -19,7 +19,7 @@ struct Missed_frames {
 
 /// What the answers of particles depend on besides the options of the detector.
 struct Particle_setting {
-  std::string_view strategy = "lbg";  ///< name; empty: one of the caller's own
+  std::string_view strategy = "lbg";  ///< name, which must outlive this; empty: one of the caller's own
   Lbg_options lbg = {};               ///< its settings
   std::size_t fewest_particles = 0;   ///< the least number that an object asks for on its own; 0: none does
 };

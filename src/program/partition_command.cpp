@@ -83,7 +83,7 @@ Json statistics(const Mesh_file& file, const Divided& divided, const Partition_c
           {"labels", labels_json(file, divided)},
           {"iterations", statistics.iterations},
           {"distance_evaluations", statistics.distance_evaluations},
-          {"islands_before_repair", statistics.repair.parts_before},
+          {"parts_before_repair", statistics.repair.parts_before},
           {"islands_joined", statistics.repair.islands_joined},
           {"regions_added", statistics.repair.regions_added},
           {"measures", to_json(divided.measures)},

@@ -47,10 +47,6 @@ bool meet_beyond_vertex(const Point& origin, const Point& a, const Point& b, con
          same_direction(origin, b, d);
 }
 
-/// 1 or -1 if the sign of a value is certain, 0 otherwise.
-/// @param error  of the value; not negative
-int sure_sign(double value, double error) { return std::abs(value) > error ? (value > 0 ? 1 : -1) : 0; }
-
 /// Whether the faces p q a and p q b meet outside of the edge p q.
 bool meet_beyond_edge(const Point& p, const Point& q, const Point& a, const Point& b) {
   const bool flat = CGAL::collinear(p, q, a), other_flat = CGAL::collinear(p, q, b);
@@ -65,6 +61,10 @@ bool meet_beyond_edge(const Point& p, const Point& q, const Point& a, const Poin
   };
   return both_beyond(p, q) || both_beyond(q, p);
 }
+
+/// 1 or -1 if the sign of a value is certain, 0 otherwise.
+/// @param error  of the value; not negative
+int sure_sign(double value, double error) { return std::abs(value) > error ? (value > 0 ? 1 : -1) : 0; }
 
 }  // namespace
 
@@ -122,8 +122,9 @@ bool Neighbour_check::surely_beside(const Wing& a, const Wing& b) {
   return c != 0 && d != 0 && e != 0 && f != 0 && c == e;
 }
 
-/// Tries to prove the same of faces that may be coplanar: seen along some axis, neither face edge-on, an edge of one
-/// parts them. The arms of one lie beyond it, and its own face on the other side.
+/// Tries to prove the same of faces that may be coplanar. Seen along an axis in which neither is edge-on, the line of
+/// an arm parts them: both arms of the other face lie strictly on one side, its own face on the other. Then the
+/// projections, and so the faces, meet in the vertex only.
 bool Neighbour_check::surely_beside_along_an_axis(const Wing& a, const Wing& b) {
   for (int axis = 0; axis < 3; ++axis) {
     const int turn_a = sure_sign(a.normal[axis], cross_error * a.area);

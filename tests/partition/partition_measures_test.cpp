@@ -41,7 +41,7 @@ TEST(Partition_measures, a_grid_cut_in_the_middle_has_the_figures_of_its_halves)
   const double radius = std::hypot(2.5, 1.5);
   EXPECT_EQ(m.regions, 2U);
   EXPECT_DOUBLE_EQ(m.size_balance, 1);
-  EXPECT_DOUBLE_EQ(m.islands_per_region, 1);
+  EXPECT_DOUBLE_EQ(m.parts_per_region, 1);
   // Each half: x varies by -1, 0, 1 around its mean, y by +-0.5, +-1.5.
   EXPECT_NEAR(m.distortion, (2.0 / 3 + 1.25) / (radius * radius) / 6, 1e-12);
   // The border runs through three squares, straight up; the area is 15.
@@ -80,7 +80,7 @@ TEST(Partition_measures, the_balance_reflects_a_larger_region_and_islands_are_co
   partition.statistics.repair.parts_before = 5;
   const auto m = measured(grid(6, 4), partition);
   EXPECT_DOUBLE_EQ(m.size_balance, 1.5);
-  EXPECT_DOUBLE_EQ(m.islands_per_region, 2.5);
+  EXPECT_DOUBLE_EQ(m.parts_per_region, 2.5);
 }
 
 TEST(Partition_measures, do_not_depend_on_units_or_position) {
@@ -115,7 +115,7 @@ TEST(Partition_measures, of_a_mesh_equal_those_of_its_positions_and_faces) {
   const auto expected = measured(mesh, partition_numbered(input, 9, Lbg{}));
   EXPECT_EQ(m.distortion, expected.distortion);
   EXPECT_EQ(m.geodesic_radius, expected.geodesic_radius);
-  EXPECT_EQ(m.islands_per_region, expected.islands_per_region);
+  EXPECT_EQ(m.parts_per_region, expected.parts_per_region);
 }
 
 TEST(Partition_measures, surfaces_without_extent_have_finite_measures) {

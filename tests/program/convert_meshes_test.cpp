@@ -134,8 +134,7 @@ TEST_F(Convert_meshes, welding_says_if_a_later_frame_moves_apart_what_it_makes_o
     return result.err;
   };
   const std::string told =
-      "--weld makes vertices 0 and 3 (counted from 0) one, but frame 1 moves them apart, by 2: the faces of both "
-      "follow "
+      "--weld makes vertices 0 and 3 (counted from 0) one, but frame 1 moves them apart by 2. The faces of both follow "
       "vertex 0\n";
   EXPECT_NE(error_of({}).find(told), std::string::npos) << error_of({});
   EXPECT_EQ(error_of({"--frames", "0"}), "") << "no frame that is written moves them apart";

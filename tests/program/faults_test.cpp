@@ -171,7 +171,7 @@ TEST_F(Faults, a_reader_that_leaves_ends_the_program_quietly_after_the_results_a
 TEST_F(Faults, a_reader_that_leaves_ends_help_quietly) {
   for (const std::string words : {"--help", "--help-all", "detect --help", "--version"}) {
     SCOPED_TRACE(words);
-    const auto result = run_in_shell("(sleep 0.2; \"$0\" " + words + "; echo $? >&2) | true");
+    const auto result = run_in_shell("exec 3> >(true); wait $!; \"$0\" " + words + " >&3; echo $? >&2");
     EXPECT_EQ(result.err, "141\n");
   }
 }

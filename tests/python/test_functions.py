@@ -275,7 +275,7 @@ def test_partitions_have_labels_particles_and_measures():
     divided = lodestone.partition(ball.vertices, ball.faces, strategy="lbg", regions=16)
     assert divided.regions == 16 and set(divided.labels) == set(range(16)) and divided.strategy == "lbg"
     assert [divided.labels[p] for p in divided.particles] == list(range(16))
-    assert divided.measures["islands_per_region"] >= 1 and 0 < divided.measures["distortion"] < 1
+    assert divided.measures["parts_per_region"] >= 1 and 0 < divided.measures["distortion"] < 1
     finer = lodestone.partition(ball, regions=64)
     assert finer.measures["distortion"] < divided.measures["distortion"]
     assert np.array_equal(lodestone.partition(ball, regions=16, threads=2).labels, divided.labels)

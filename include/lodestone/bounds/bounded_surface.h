@@ -130,6 +130,8 @@ class Bounded_surface {
     (list.push_back(std::make_unique<Node_bound_of<Bounds&>>(bounds)), ...);
     return list;
   }
+  template <class Pose>
+  auto or_start_over(const Pose& pose);
   void follow_positions();
   void plan_frame();
   bool is_paused() const { return pause_left_ > 0; }

@@ -35,8 +35,10 @@ class Watched_mesh {
   /// Corners of every face, in the order of `faces(mesh)`.
   virtual std::span<const Corners> corners() const = 0;
   /// Notices that the mesh has changed since it was numbered: see `lodestone::check_connectivity`.
-  /// @param title      names the mesh in the message
-  /// @throws Bad_mesh  the mesh has another number of vertices or faces than when it was numbered, or removed elements
+  /// @param title          names the mesh in the message
+  /// @throws Bad_mesh      the mesh has another number of vertices or faces than when it was numbered, or removed
+  ///                       elements
+  /// @throws Bad_argument  its points are computed, and there are fewer than vertices
   virtual void check_connectivity(const std::string& title) const = 0;
 
   /// Where all vertices are now. O(1) where `in_memory`, otherwise O(V).
@@ -152,6 +154,12 @@ class Typed_watched_mesh final : public Watched_mesh_of<Mesh> {
     if constexpr (is_computed<Points> && !Vertex_table<Mesh>::by_index) in_order_ = points_.in_order(this->numbering_);
   }
 
+  void check_connectivity(const std::string& title) const override {
+    Watched_mesh_of<Mesh>::check_connectivity(title);
+    if constexpr (is_computed<Points>)
+      if (points_.points().vertex_count() < this->numbering_.vertex_count())
+        throw Bad_argument(title + " has fewer computed points than vertices");
+  }
   Coordinates read() override { return all_points_.read(this->numbering_); }
   Eigen::Vector3d read(std::uint32_t vertex) const override {
     return coordinates(get(points_, this->numbering_.vertex(vertex)));

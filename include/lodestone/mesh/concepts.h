@@ -54,11 +54,12 @@ concept Point_like = requires(const P& p) {
   { p.z() } -> Exact_as_double;
 };
 
-/// A readable property map from the vertices of `Mesh` to points.
+/// A readable property map from the vertices of `Mesh` to points. Detectors keep a copy of it.
 template <class Map, class Mesh>
-concept Vertex_point_map = requires(const Map& map, Vertex<Mesh> v) {
-  { get(map, v) } -> Point_like;
-};
+concept Vertex_point_map =
+    std::copy_constructible<std::remove_cvref_t<Map>> && requires(const Map& map, Vertex<Mesh> v) {
+      { get(map, v) } -> Point_like;
+    };
 
 /// A property map whose value type, as its traits tell it, is a number too small for the index of a region. There are
 /// no more regions than vertices, so 31 bits are enough.

@@ -10,12 +10,15 @@
 
 namespace lodestone {
 
-/// A property map that stores its points contiguously, each as three doubles.
-template <class Points>
-concept Contiguous_points = requires(const Points& points) {
-  { points.data()->cartesian_begin() } -> std::same_as<const double*>;
-  requires sizeof(*points.data()) == 3 * sizeof(double);
-};
+/// CGAL's own property map of points that are three doubles each: they lie in its memory, one after the other. Another
+/// type, also one derived from it, may give positions that are not in the memory that it shows.
+template <class Points, class Mesh>
+concept Contiguous_points =
+    std::same_as<Points, typename Mesh::template Property_map<Vertex<Mesh>, typename Points::value_type>> &&
+    requires(const Points& points) {
+      { points.data()->cartesian_begin() } -> std::same_as<const double*>;
+      requires sizeof(*points.data()) == 3 * sizeof(double);
+    };
 
 /// Reads the current coordinates of all vertices. This general version copies them.
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
@@ -42,7 +45,7 @@ class Coordinate_reader {
 };
 
 /// For CGAL::Surface_mesh with points of three doubles: refers to the memory of the mesh itself. O(1).
-template <class P, Contiguous_points Points>
+template <class P, Contiguous_points<CGAL::Surface_mesh<P>> Points>
 class Coordinate_reader<CGAL::Surface_mesh<P>, Points> {
  public:
   static constexpr bool in_memory = true;  ///< `read` refers to the memory of the mesh

@@ -13,12 +13,12 @@ struct Partition_measures {
   double distortion = 0;    ///< sum |X - Q(X)|^2 / (k M) over position + normal of equal weight, k = 6, where Q(X) is
                             ///< the mean vector of the region of X
   double size_balance = 1;  ///< vertices of the largest region over the mean number of vertices; 1: all equal
-  double islands_per_region = 1;  ///< connected parts before islands were repaired, over the regions left afterwards
-  double border_length = 0;       ///< length of all borders over the square root of the surface's area
-  double normal_deviation = 0;    ///< angle in degrees between the normal of a face and the mean normal of its region:
-                                  ///< root mean square over the surface
-  double geodesic_radius = 0;     ///< longest of the shortest paths along edges from a particle to a vertex of its
-                                  ///< region; mean over the regions, in radii of the object
+  double parts_per_region = 1;  ///< connected parts before islands were repaired, over the regions left afterwards
+  double border_length = 0;     ///< length of all borders over the square root of the surface's area
+  double normal_deviation = 0;  ///< angle in degrees between the normal of a face and the mean normal of its region:
+                                ///< root mean square over the surface
+  double geodesic_radius = 0;   ///< longest of the shortest paths along edges from a particle to a vertex of its
+                                ///< region; mean over the regions, in radii of the object
   double box_volume = 0;   ///< of the boxes around the faces of each region, over that of the box around all; 0 for
                            ///< a surface that is flat along an axis
   double ball_volume = 0;  ///< the same of smallest enclosing balls

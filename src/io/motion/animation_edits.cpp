@@ -99,9 +99,10 @@ struct Weld {
     for (std::uint32_t vertex = 0; vertex < target.size(); ++vertex) {
       const auto at = kept[target[vertex]];
       if (at == vertex) continue;
-      const double apart = std::sqrt(CGAL::squared_distance(original[at], original[vertex]));
+      const Point &p = original[at], &q = original[vertex];
+      const double apart = std::hypot(p.x() - q.x(), p.y() - q.y(), p.z() - q.z());
       if (apart > parted.distance) parted = {frame, at, vertex, apart};
-      for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(original[at][axis]));
+      for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(p[axis]));
     }
     if (parted.distance > distance + 0x1p-21 * largest) return parted;
     return std::nullopt;

@@ -75,8 +75,8 @@ Separation by_component(const Scene_object& object, std::span<const Corners> fac
   const std::size_t count = by.label.empty() ? 0 : *std::ranges::max_element(by.label) + std::size_t{1};
   check_count(
       count, most_scene_objects, "connected components", object.name,
-      ". Vertices that coincide connect no faces before they are welded, as by lodestone convert --weld 0, if they "
-      "stay together");
+      ". Vertices that coincide connect no faces before they are welded, as by lodestone convert --weld 0, if no "
+      "frame moves them apart");
   for (std::size_t number = 1; number <= count; ++number) by.names.push_back(fmt::format("{}_{}", object.name, number));
   return by;
 }
