@@ -55,7 +55,7 @@ void add_partitions(py::module_& module) {
                              "How good it is: a dict. Smaller is better; no figure depends on the units of the mesh.\n"
                              "  distortion         mean squared distance to the region's mean in position + normal\n"
                              "  size_balance       vertices of the largest region over the mean\n"
-                             "  parts_per_region  before islands were repaired\n"
+                             "  parts_per_region   before islands were repaired\n"
                              "  border_length      of all borders, over the square root of the area\n"
                              "  normal_deviation   degrees between the normal of a face and that of its region\n"
                              "  geodesic_radius    from a particle to the farthest vertex of its region, in radii of the "

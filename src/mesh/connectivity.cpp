@@ -4,7 +4,9 @@
 namespace lodestone {
 
 void fail_removed_elements(const std::string& who) {
-  throw Bad_mesh(who + " holds removed elements: collect the garbage of its mesh, then call rebuild()");
+  throw Bad_mesh(who +
+                 " holds removed elements: collect them first (collect_garbage() of a Surface_mesh, "
+                 "garbage_collection() of an OpenMesh), then call rebuild()");
 }
 
 void fail_other_counts(const std::string& who, std::size_t vertices, std::size_t faces, std::size_t numbered_vertices,
