@@ -19,9 +19,10 @@ Animation scaled(Animation animation, double factor);
 
 /// Two vertices that were merged, and that a frame of the animation moves apart.
 struct Parted_vertices {
-  std::size_t frame = 0;
-  std::uint32_t kept = 0, merged = 0;  ///< indices before they were merged
-  double distance = 0;                 ///< in that frame
+  std::size_t frame = 0;     ///< that frame
+  std::uint32_t kept = 0;    ///< the vertex that both follow: its index before they were merged
+  std::uint32_t merged = 0;  ///< the other, likewise
+  double distance = 0;       ///< between them, in that frame
 };
 
 /// Merges vertices that are near each other in the first frame. In the order of the file, each vertex joins the first
