@@ -40,13 +40,13 @@ namespace lodestone {
 /// `particles` call `update` before `detect`: it notices regions that have grown. One thread at a time may use a
 /// detector.
 ///
-/// Cost. The first query after `add` or `rebuild` builds: `add` itself only numbers the mesh, O(V + F). In mode `exact`
-/// each query then reads the objects that it is asked about, O(V), unless positions are held; in mode `certified` only
-/// where it looks. `detect` has in addition O(log F) openings for two objects that meet in one place, and a test for
-/// each pair of faces whose boxes overlap. So have `visit`, `within`, `closest` and `first_impact`. `parting` takes some
-/// dozen searches of that kind. Rays, `closest_point`, `point_side` and `contains` take O(log F) where the surface is
-/// met in one place. In mode `particles` a frame reads few of the V positions; with meetings, the median frame grew with
-/// the square root of the number of faces in the experiment `scaling`.
+/// Cost. The first query after `add` or `rebuild` builds the object; `add` itself only numbers the mesh, O(V + F). In
+/// mode `exact` a query reads all V positions of each object that it asks about, unless they are held; in mode
+/// `certified` only where it looks. Then `detect` compares O(log F) pairs of nodes for two objects that meet in one
+/// place, and the faces whose boxes overlap there. `visit`, `within`, `closest` and `first_impact` search in the same
+/// way, and `parting` does so some dozen times. Rays, `closest_point`, `point_side` and `contains` look at O(log F)
+/// nodes where the surface is met in one place. In mode `particles` a frame reads few of the V positions; with
+/// meetings, the median frame grew with the square root of the number of faces in the experiment `scaling`.
 ///
 /// Functions of yours that a detector calls must not call it: visitors, point maps, strategies, promises. From there,
 /// every call that is not const throws Bad_argument, but for `ignore` and `hold_positions`.

@@ -121,13 +121,13 @@ void add_particle_options(CLI::App& app, Detector_options& options) {
       ->capture_default_str();
   app.add_option("--collision-distance", options.collision_distance,
                  "Mode senin, or particles with --meetings 0: particles nearer than this make their regions a "
-                 "candidate; in mean edge lengths")
+                 "candidate; in mean edge lengths, or what --distance-measure says")
       ->check(number_above_0(false))
       ->capture_default_str();
   app.add_option(
          "--distance-measure", options.distance_measure,
-         "The same modes: what these lengths are the mean of: adjacent_vertices, which is the mean edge length; "
-         "all_vertices, which is the mean distance of any two vertices, as published")
+         "Mode senin, or particles with --meetings 0: unit of the collision distance: adjacent_vertices, the mean edge "
+         "length; all_vertices, the mean distance of any two vertices, as published")
       ->transform(one_of<Distance_measure>({{"adjacent_vertices", Distance_measure::adjacent_vertices},
                                             {"all_vertices", Distance_measure::all_vertices}}))
       ->type_name("MEAN")

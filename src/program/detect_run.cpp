@@ -61,9 +61,9 @@ struct Surface_now {
   Box box = {};
 };
 
-/// What is asked of two objects would be ignored where there is one.
+/// With a single object, checked against itself, these options would be ignored.
 /// @throws Bad_argument  names the option
-void check_pairs_can_answer(const Scene& scene, const Detect_command& command) {
+void refuse_questions_about_pairs(const Scene& scene, const Detect_command& command) {
   const Exact_options& exact = command.options.exact;
   if (scene.objects.size() != 1 || !exact.self_collision) return;
   const auto refuse = [](bool is_given, const char* option, const char* hint = "") {
@@ -83,7 +83,7 @@ Detect_run::Detect_run(const Detect_command& command)
   summary_.measurement.setting.options = command.options;
   if (command.impacts && scene_.frames == 1)
     throw Bad_argument("--impacts is about what happens between frames, and there is one only");
-  check_pairs_can_answer(scene_, command);
+  refuse_questions_about_pairs(scene_, command);
   if (command.merge_shards) return;  // others have played the frames
   asks_once_ = asks_once(command, scene_);
   if (command.options.mode == Mode::certified) compute_motions();

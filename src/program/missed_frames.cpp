@@ -53,7 +53,7 @@ std::optional<std::string> missing_note(const Detector_options& options, const P
   const auto missed = expected_misses(options, setting);
   if (!missed)
     return fmt::format(
-        "Mode {} may miss collisions; how many with these options, the experiment modes has not measured. Mode exact "
+        "Mode {} may miss collisions. The experiment modes has not measured how many with these options. Mode exact "
         "never misses any.",
         name_of(options.mode));
   const std::string range =

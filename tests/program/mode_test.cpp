@@ -132,7 +132,7 @@ TEST_F(Program_mode, that_may_miss_more_than_was_measured_tells_no_figures) {
     options.insert(options.begin(), {"--mode", "particles"});
     const auto result = detect(options);
     expect_success(result);
-    EXPECT_NE(result.out.find("has not measured"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("has not measured how many"), std::string::npos) << result.out;
     EXPECT_EQ(result.out.find(" of the colliding frames"), std::string::npos) << result.out;
     EXPECT_EQ(summary()["may_miss"],
               Json({{"least_share", nullptr}, {"most_share", nullptr}, {"experiment", nullptr}}));
@@ -151,7 +151,7 @@ TEST_F(Program_mode, that_may_miss_tells_figures_unless_an_object_asks_for_fewer
     expect_success(result);
     return result.out;
   };
-  const std::string figures = "of the colliding frames", none = "has not measured";
+  const std::string figures = "of the colliding frames", none = "has not measured how many";
   EXPECT_NE(note("", {}).find(figures), std::string::npos);
   EXPECT_NE(note(R"(, "particles": 12)", {}).find(figures), std::string::npos);
   EXPECT_NE(note(R"(, "particles": 11)", {}).find(none), std::string::npos);

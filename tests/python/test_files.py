@@ -299,7 +299,7 @@ def test_the_path_of_a_page_is_checked_before_frames_are_played(tmp_path):
 
 
 def test_a_page_of_particles_says_that_collisions_may_be_missed(tmp_path):
-    measured, unmeasured = "of the colliding frames", "has not measured"
+    measured, unmeasured = "of the colliding frames", "has not measured how many"
     for options, own_particles, says in (
         ({"mode": "exact"}, 0, None),
         ({"mode": "particles"}, 0, measured),
