@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <ostream>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -76,6 +77,7 @@ struct Failing_case {
   const char* name;
   bool placed, held, writes_first;
 };
+void PrintTo(const Failing_case& failing, std::ostream* out) { *out << failing.name; }
 
 class Certified_after_a_failure : public testing::TestWithParam<Failing_case> {};
 
