@@ -259,7 +259,8 @@ std::size_t read_frames(const Json_value& scene, const std::vector<Scene_object>
 Scene read_scene(const std::filesystem::path& file, const Scene_options& options) {
   const detail::Json document = detail::parse_json(file);
   const Json_value value(document, file.string());
-  value.expect_keys({"name", "description", "frames", "objects", "ignore"});
+  value.expect_keys({"name", "description", "frames", "objects", "ignore", "$schema"});
+  if (const auto schema = value.find("$schema")) schema->text();  // for editors
   Scene_folder folder(file.has_parent_path() ? file.parent_path() : ".", options);
 
   Scene scene;

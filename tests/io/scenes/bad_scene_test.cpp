@@ -55,8 +55,9 @@ TEST(Bad_scene_file, an_unknown_key_in_a_motion_is_refused) {
 }
 
 TEST(Bad_scene_file, unknown_keys_are_refused_everywhere) {
-  EXPECT_EQ(error_of(R"({"object": []})"),
-            R"(scene.json: /: unknown key "object" (expected one of name, description, frames, objects, ignore))");
+  EXPECT_EQ(
+      error_of(R"({"object": []})"),
+      R"(scene.json: /: unknown key "object" (expected one of name, description, frames, objects, ignore, $schema))");
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "colour": 1)")).substr(0, 46),
             R"(scene.json: /objects/0: unknown key "colour" ()");
   EXPECT_EQ(error_of(with_object(R"("mesh": "a.off", "place": {"shift": 1})")),
@@ -72,8 +73,9 @@ TEST(Bad_scene_file, unknown_keys_are_refused_everywhere) {
 }
 
 TEST(Bad_scene_file, an_unknown_key_cannot_break_the_line_of_the_message) {
-  EXPECT_EQ(error_of(R"({"a\n\u0000b": 1})"),
-            R"(scene.json: /: unknown key "a\n\u0000b" (expected one of name, description, frames, objects, ignore))");
+  EXPECT_EQ(
+      error_of(R"({"a\n\u0000b": 1})"),
+      R"(scene.json: /: unknown key "a\n\u0000b" (expected one of name, description, frames, objects, ignore, $schema))");
   EXPECT_LT(error_of("{\"" + std::string(100'000, 'x') + "\": 1}").size(), 300U);
 }
 
