@@ -131,6 +131,12 @@ void note_open_surfaces(const Scene& scene) {
   });
 }
 
+/// Mode `certified` computes few positions; what is written or compared as a whole needs all of them.
+void note_computed_positions(const Detect_run& scene_run, const Detect_command& command) {
+  if (scene_run.computes_positions() && (command.truth || !command.html.empty() || !command.paraview.empty()))
+    note("--html, --paraview and --truth need all positions: all objects are also posed as a whole, outside the times");
+}
+
 /// What the user reads on the terminal.
 void print_results(Detect_run& scene_run, const Detect_command& command) {
   if (command.json) return fmt::print("{}", json_text(scene_run.summary(), 2));
@@ -138,6 +144,7 @@ void print_results(Detect_run& scene_run, const Detect_command& command) {
   note_lengths(scene_run.scene(), is_scene_file(command.inputs));
   note_single_object(scene_run.scene(), command);
   note_unquoted_pattern(command);
+  note_computed_positions(scene_run, command);
   note_objects(scene_run);
   if (command.options.exact.containment || command.options.exact.parting) note_open_surfaces(scene_run.scene());
   scene_run.print();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -48,6 +49,10 @@ class Detect_run {
   std::string answer() const { return one_line_answer(subject(), summary_); }
   bool finds_any() const { return summary_.finds_any(); }
   const Scene& scene() const { return scene_; }
+  /// Whether positions are computed where the detector looks.
+  bool computes_positions() const {
+    return std::ranges::any_of(computed_, [](const auto& c) { return c != nullptr; });
+  }
   /// The number of vertices of an object that lie on others along seams, which its particles walk across.
   std::size_t joined_vertices(Object_id id) const;
   /// Null if no page was requested.

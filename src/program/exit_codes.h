@@ -22,6 +22,6 @@ inline constexpr const char* help = R"(Exit codes:
   5    --truth: a reported collision is not true, or mode exact or certified missed one
   70   an error that should not happen: please report it
   130  interrupted
-  141  nobody reads the standard output any more)";
+  141  the reader of the standard output has closed it)";
 
 }  // namespace lodestone::exit_code
