@@ -30,7 +30,6 @@ int main() try {
   for (int frame = 0; frame < 40; ++frame) {
     for (auto v = sphere.vertices_begin(); v != sphere.vertices_end(); ++v)
       v->point() = v->point() + Kernel::Vector_3(0.1, 0, 0);
-    detector.update();
     const Frame& found = detector.detect();
     met |= found.collides();
     if (frame % 10 == 0) std::printf("frame %2d: %zu pairs of faces intersect\n", frame, found.face_pairs.size());

@@ -24,7 +24,8 @@ constexpr double published_growth = 1;  // times A*
 Setting with_published_cells(Distance_measure measure) {
   Detector_options options{.meetings = 0, .distance_measure = measure, .growth = published_growth};
   options.partition.keep_islands = true;
-  return {.options = options,
+  return {.name = {},
+          .options = options,
           .strategy = make_strategy(Lbg::name, {.lbg = {.split_rule = Split::multiplicative, .sample = 0}})};
 }
 
@@ -37,7 +38,7 @@ std::vector<Setting> paper_settings() {
     settings.push_back(std::move(setting));
   };
   const auto add = [&](const std::string& name, std::size_t particles, const Detector_options& options) {
-    add_setting(name, particles, {.options = options});
+    add_setting(name, particles, {.name = {}, .options = options});
   };
   for (const std::size_t particles : {12, 32, 64}) {
     for (const double distance : {1.0, 2.0, 4.0})

@@ -237,7 +237,7 @@ void Particle_detection::start(Building& building, Workers& workers) {
   }
   object.particle_object.take_division(std::move(building.division), building.positions, workers);
   if (meets())
-    object.particle_object.prepare_meetings(building.positions, options_.exact.tree, workers);
+    object.particle_object.prepare_meetings(building.positions, options_.tree, workers);
   else
     object.particle_object.prepare_patches();
 }

@@ -15,8 +15,8 @@ namespace lodestone {
 
 namespace {
 
-/// With more than this share of its faces changed, a tree is built anew.
-constexpr std::size_t most_changed = 8;
+/// With more than one of so many faces changed, a tree is built anew.
+constexpr std::size_t faces_per_changed = 8;
 
 /// A tree is also built anew if finding leaves for new components would take more comparisons than so many per face.
 constexpr std::size_t most_compared = 4;
@@ -87,7 +87,7 @@ Tree_mender::Tree_mender(const Tree_layout& former, Tree_layout& tree, std::span
 }
 
 bool Tree_mender::mend() {
-  if (moved_.size() > corners_.size() / most_changed) return false;
+  if (moved_.size() > corners_.size() / faces_per_changed) return false;
   find_left_faces();
   if (!place_faces() || !size_leaves()) return false;
   size_lists(leaf_begin_.back());

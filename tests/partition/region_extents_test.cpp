@@ -297,7 +297,6 @@ TEST(Region_extent, has_its_first_direction_along_the_given_axis) {
   const std::vector<Region_index> labels(55, 0);
   const auto border = open_border(55, mesh.faces);
   const Live_positions position(mesh.positions.data());
-  const Eigen::Vector3d up(0, 0, 1);
   const auto lengths = [&](const Eigen::Vector3d& axis) {
     const auto extent =
         region_extents({mesh.graph, labels, border, position}, std::vector{Extent_start{2 * 11 + 3, up, axis}}).front();
@@ -312,7 +311,7 @@ TEST(Region_extent, has_its_first_direction_along_the_given_axis) {
 }
 
 TEST(Angle_to_axis, turns_a_vector_around_the_normal_to_where_x_is) {
-  const Eigen::Vector3d up(0, 0, 1), needle(1, 2, 0.5);
+  const Eigen::Vector3d needle(1, 2, 0.5);
   const Eigen::Vector3d turned = Eigen::AngleAxisd(angle_to_axis(up, needle), up) * needle;
   EXPECT_NEAR(turned.x(), std::sqrt(5), 1e-12);
   EXPECT_NEAR(turned.y(), 0, 1e-12);

@@ -35,7 +35,7 @@ class Particle_detection final : public Detection {
 
   /// @param options  checked by `make_detection`
   explicit Particle_detection(const Detector_options& options)
-      : options_(options), workers_(options.exact.threads), frame_(options), meeting_search_(options, workers_) {}
+      : options_(options), workers_(options.threads), frame_(options), meeting_search_(options, workers_) {}
 
   void add(const Watch_mesh& watch, const Object_options& options) override;
   Watched_mesh& mesh(Object_id object) override { return objects_[object]->particle_object.mesh(); }

@@ -50,7 +50,7 @@ class Watched_mesh {
   virtual void read(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const = 0;
   /// Whether `read()` refers to the mesh's own memory, instead of copying.
   virtual bool in_memory() const = 0;
-  /// Grows whenever positions change; 0: nobody knows.
+  /// Grows whenever positions change; 0: unknown, so they are read anew.
   virtual std::uint64_t pose_number() const = 0;
   /// Grows when `own_bound` must be made anew: see Computed_points.
   virtual std::uint64_t shape_number() const = 0;

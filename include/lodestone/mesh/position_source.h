@@ -18,7 +18,7 @@ class Position_source {
 
   /// Number of vertices, V.
   virtual std::uint32_t vertex_count() const = 0;
-  /// Grows whenever positions change; 0: nobody knows, they may have changed since the last look.
+  /// Grows whenever positions change; 0: unknown, so they are read anew.
   virtual std::uint64_t pose_number() const = 0;
   /// One position.
   virtual Eigen::Vector3d operator()(std::uint32_t vertex) const = 0;

@@ -47,7 +47,8 @@ std::size_t kissing_particle_count(std::size_t objects);
 /// @throws Bad_argument  a radius that is not finite or not > 0
 std::size_t shadow_particle_count(double radius, double smallest);
 
-/// Smallest sphere around the positions, by CGAL's Min_sphere_of_spheres_d.
+/// Smallest sphere around the positions, in their unit, by CGAL's Min_sphere_of_spheres_d. Its radius is 0 for no
+/// position and for equal ones, and where their extent exceeds the largest double. O(V) expected.
 Sphere bounding_sphere(const Positions& positions);
 
 /// Smallest sphere around a surface: around the positions that faces use; around all if there is no face.

@@ -41,7 +41,7 @@ struct Region_growing {
 };
 
 /// The areas of `Region_growing` before their number is adjusted, per face; `no_region` for faces without area, and for
-/// those that `oriented_mesh` leaves out.
+/// those that `oriented_mesh` leaves out. Cost as of `Region_growing`.
 std::vector<Region_index> flat_areas(const Numbered_surface& surface, const Region_growing_options& options = {});
 
 }  // namespace lodestone

@@ -52,7 +52,7 @@ struct Sdf {
 };
 
 /// The segments of `Sdf` before their number is adjusted, per face; `no_region` for faces that `oriented_mesh` leaves
-/// out.
+/// out. Cost as of `Sdf`.
 std::vector<Region_index> sdf_segments(const Numbered_surface& surface, const Sdf_options& options = {});
 
 }  // namespace lodestone

@@ -64,7 +64,7 @@ struct Fiedler_vector {
   std::size_t iterations = 0;  ///< 1 for a dense solver
 };
 
-/// The Fiedler vector of a graph: see Spectral.
+/// The Fiedler vector of a graph, and its cost: see Spectral.
 /// @param graph     connected, two vertices or more
 /// @throws Bad_argument  an option out of range, or fewer than two vertices
 Fiedler_vector fiedler_vector(const Vertex_graph& graph, const Spectral_options& options = {});

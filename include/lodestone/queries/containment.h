@@ -34,6 +34,7 @@ bool encloses(const Layout_view& surface, const Point& point);
 
 /// Whether every component of `inner` lies inside `outer`. Exact. False if `outer` is not closed: it has no inside. A
 /// hollow in `outer`, bounded by a component of its surface, counts as outside.
+/// Asks about one point per component of `inner`: as long as so many calls of `point_side`.
 /// @param outer, inner                two surfaces that do not intersect
 /// @param outer_layout, inner_layout  of the two, with boxes
 bool encloses(const Object_surface& outer, const Layout_view& outer_layout, const Object_surface& inner,
