@@ -28,10 +28,10 @@ int main() try {
   for (const auto v : ball.vertices()) next_ball[v] = ball.point(v) - Kernel::Vector_3(0.1, 0.2, 2);
 
   const auto impact = find_first_impact(sheet, next_sheet, ball, next_ball);
-  const bool before = find_collisions(sheet, ball).collide;
+  const bool before = find_collisions(sheet, ball).collides;
   for (const auto v : sheet.vertices()) sheet.point(v) = next_sheet[v];
   for (const auto v : ball.vertices()) ball.point(v) = next_ball[v];
-  const bool after = find_collisions(sheet, ball).collide;
+  const bool after = find_collisions(sheet, ball).collides;
 
   std::printf("they intersect before: %s, after: %s\n", before ? "yes" : "no", after ? "yes" : "no");
   if (!impact) return 1;

@@ -3,10 +3,12 @@
 
 #include <utility>
 
+#include "lodestone/mesh/errors.h"
+
 namespace lodestone {
 
 Collisions collisions_of(Frame frame) {
-  return {.collide = frame.collides(),
+  return {.collides = frame.collides(),
           .near = frame.near(),
           .faces = std::move(frame.face_pairs),
           .intersects = std::move(frame.contact_intersects),
@@ -20,9 +22,17 @@ Collisions collisions_of(Frame frame) {
           .statistics = frame.statistics};
 }
 
-template std::optional<Frame> frame_at_once(const Surface_mesh&, const Surface_mesh&, const Detector_options&);
-template Frame self_frame_at_once(const Surface_mesh&, Detector_options, std::span<const std::uint32_t>);
-template std::optional<Frame> frame_at_once(const Indexed_mesh&, const Indexed_mesh&, const Detector_options&);
-template Frame self_frame_at_once(const Indexed_mesh&, Detector_options, std::span<const std::uint32_t>);
+void check_not_twice(const void* a, const void* b) {
+  if (a == b) throw Bad_argument("one mesh is given twice; find_self_collisions finds what it does to itself");
+}
+
+template std::optional<Frame> frame_at_once(const Surface_mesh&, Own_points<Surface_mesh>, const Surface_mesh&,
+                                            Own_points<Surface_mesh>, const Detector_options&);
+template Frame self_frame_at_once(const Surface_mesh&, Own_points<Surface_mesh>, Detector_options,
+                                  std::span<const std::uint32_t>);
+template std::optional<Frame> frame_at_once(const Indexed_mesh&, Own_points<Indexed_mesh>, const Indexed_mesh&,
+                                            Own_points<Indexed_mesh>, const Detector_options&);
+template Frame self_frame_at_once(const Indexed_mesh&, Own_points<Indexed_mesh>, Detector_options,
+                                  std::span<const std::uint32_t>);
 
 }  // namespace lodestone

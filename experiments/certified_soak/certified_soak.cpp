@@ -42,9 +42,9 @@ Detector_options random_options(Random& random) {
   options.exact.self_tolerance = options.exact.self_collision && random.one_in(3) ? random_tolerance(random) : 0;
   options.exact.containment = random.one_in(4);
   options.exact.parting = random.one_in(16);
-  options.exact.threads = random.one_in(8) ? 3 : 1;
+  options.threads = random.one_in(8) ? 3 : 1;
   options.exact.throw_if_broken = random.one_in(4);
-  options.exact.tree.leaf_faces = 2 + random.below(100);
+  options.tree.leaf_faces = 2 + random.below(100);
   return options;
 }
 
@@ -124,7 +124,7 @@ class Round {
   }
   void add_body(std::unique_ptr<Random_body> body) {
     detectors_.add(*body);
-    checks_.push_back(std::make_unique<Bound_check>(*body, options_.exact.tree.leaf_faces));
+    checks_.push_back(std::make_unique<Bound_check>(*body, options_.tree.leaf_faces));
     bodies_.push_back(std::move(body));
   }
   void move() {

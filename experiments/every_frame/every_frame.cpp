@@ -63,7 +63,7 @@ class Scene_check {
  public:
   explicit Scene_check(Scene& scene) : scene_(scene), promises_(scene.objects.size()) {
     for (const auto mode : {Mode::exact, Mode::certified}) {
-      for (const auto threads : {1, 2}) add({.mode = mode, .exact = {.threads = std::size_t(threads)}});
+      for (const auto threads : {1, 2}) add({.mode = mode, .threads = std::size_t(threads)});
       add({.mode = mode, .contacts = Contact_query::yes_no});
     }
     add({.mode = Mode::particles});

@@ -16,7 +16,7 @@ class One_call : public Session {
  public:
   One_call(const Surface_mesh& a, const Surface_mesh& b) : a_(a), b_(b) {}
 
-  bool any() override { return find_collisions(a_, b_, {.contacts = Contact_query::yes_no}).collide; }
+  bool any() override { return find_collisions(a_, b_, {.contacts = Contact_query::yes_no}).collides; }
   void all(std::vector<Face_pair>& found) override { found = find_collisions(a_, b_).faces; }
 
  private:

@@ -17,8 +17,8 @@ class Lodestone_entrant : public Entrant {
  public:
   Lodestone_entrant(std::span<const Moving_mesh> meshes, std::size_t threads)
       : meshes_(meshes.begin(), meshes.end()),
-        any_({.mode = Mode::exact, .contacts = Contact_query::yes_no, .exact = {.threads = threads}}),
-        all_({.mode = Mode::exact, .contacts = Contact_query::all, .exact = {.threads = threads}}) {
+        any_({.mode = Mode::exact, .contacts = Contact_query::yes_no, .threads = threads}),
+        all_({.mode = Mode::exact, .contacts = Contact_query::all, .threads = threads}) {
     build(any_);
   }
 

@@ -31,7 +31,7 @@ struct Pair_case {
 };
 
 Detector_options with_threads(Detector_options options, std::size_t threads) {
-  options.exact.threads = threads;
+  options.threads = threads;
   return options;
 }
 
@@ -166,7 +166,7 @@ Threaded_work certified_frame(Character_scene& scene, std::string name, Contact_
           .pose = [&scene](std::size_t round) { scene.pose((2 * round) % scene.frames.size()); },
           .make = [&scene, contacts](std::size_t threads) -> std::function<double()> {
             auto detector = std::make_shared<Detector<>>(
-                Detector_options{.mode = Mode::certified, .contacts = contacts, .exact = {.threads = threads}});
+                Detector_options{.mode = Mode::certified, .contacts = contacts, .threads = threads});
             for (const auto& character : scene.characters)
               detector->add(character.mesh, point_map(character.mesh, character.points));
             detector->detect();

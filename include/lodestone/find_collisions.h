@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -14,7 +15,7 @@ namespace lodestone {
 
 /// What `find_collisions` found; of `find_self_collisions`, a and b are the same mesh.
 struct Collisions {
-  bool collide = false;          ///< the surfaces intersect
+  bool collides = false;         ///< the surfaces intersect
   bool near = false;             ///< faces are nearer than the tolerance, or intersect; false without one
   std::vector<Face_pair> faces;  ///< faces of a and b that intersect, or are nearer than the tolerance; sorted
   std::vector<std::uint8_t> intersects = {};    ///< parallel to `faces`, without a tolerance empty: 1 where the faces
@@ -29,8 +30,12 @@ struct Collisions {
   Frame_statistics statistics = {};             ///< what it took
 };
 
+/// @cond  helpers
 /// What a frame says about its only pair.
 Collisions collisions_of(Frame frame);
+/// @throws Bad_argument  the addresses are the same
+void check_not_twice(const void* a, const void* b);
+/// @endcond
 
 /// Finds collisions between two meshes, which may be of different types, with one call.
 ///
@@ -45,17 +50,25 @@ Collisions collisions_of(Frame frame);
 /// Cost O(V + F) to read both and to find the faces in the overlap of their boxes, and O(n log n) for n such faces;
 /// with a Detector O(F log F).
 ///
+/// @param np_a, np_b  `vertex_point_map`: where the vertices are; default: the meshes' own points. With one, both may
+///                    be of the same mesh
 /// @return contacts as `options.contacts` asks: none, one, or all, up to `most_contacts`
 /// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite, a Surface_mesh with
 ///                       removed elements
 /// @throws Bad_argument  an option out of range, one that the mode does not take, or one mesh given twice
-template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b>
-Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_options& options = {}) {
+template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b, class Parameters_a = CGAL::parameters::Default_named_parameters,
+          class Parameters_b = CGAL::parameters::Default_named_parameters>
+Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_options& options = {},
+                           const Parameters_a& np_a = CGAL::parameters::default_values(),
+                           const Parameters_b& np_b = CGAL::parameters::default_values()) {
   need_same_containers();
-  if (auto frame = frame_at_once(a, b, options)) return collisions_of(std::move(*frame));
+  if (auto frame = frame_at_once(a, vertex_points(a, np_a), b, vertex_points(b, np_b), options))
+    return collisions_of(std::move(*frame));
+  using Default = CGAL::parameters::Default_named_parameters;
+  if constexpr (std::same_as<Parameters_a, Default> && std::same_as<Parameters_b, Default>) check_not_twice(&a, &b);
   Detector detector(options);
-  const Object_id first = detector.add(a, {.name = "the first mesh"});
-  const Object_id second = detector.add(b, {.name = "the second mesh"});
+  const Object_id first = detector.add(a, vertex_points(a, np_a), {.name = "the first mesh"});
+  const Object_id second = detector.add(b, vertex_points(b, np_b), {.name = "the second mesh"});
   return collisions_of(finds_all(options.mode) ? detector.detect(first, second) : detector.detect());
 }
 
@@ -69,20 +82,26 @@ Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_opti
 /// Cost O(F log F) for the tree, which is thrown away.
 ///
 /// @param file_vertex    which vertices are one: see `Object_options::file_vertex`
+/// @param np             `vertex_point_map`: where the vertices are; default: the mesh's own points
 /// @return contacts as `options.contacts` asks: none, one, or all, up to `most_contacts`
 /// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite, a Surface_mesh with
 ///                       removed elements
 /// @throws Bad_argument  an option out of range, another mode; `file_vertex` does not have one entry per vertex
-template <Triangle_mesh Mesh>
+template <Triangle_mesh Mesh, class Parameters = CGAL::parameters::Default_named_parameters>
 Collisions find_self_collisions(const Mesh& mesh, const Detector_options& options = {},
-                                std::span<const std::uint32_t> file_vertex = {}) {
+                                std::span<const std::uint32_t> file_vertex = {},
+                                const Parameters& np = CGAL::parameters::default_values()) {
   need_same_containers();
-  return collisions_of(self_frame_at_once(mesh, options, file_vertex));
+  return collisions_of(self_frame_at_once(mesh, vertex_points(mesh, np), options, file_vertex));
 }
 
-extern template std::optional<Frame> frame_at_once(const Surface_mesh&, const Surface_mesh&, const Detector_options&);
-extern template Frame self_frame_at_once(const Surface_mesh&, Detector_options, std::span<const std::uint32_t>);
-extern template std::optional<Frame> frame_at_once(const Indexed_mesh&, const Indexed_mesh&, const Detector_options&);
-extern template Frame self_frame_at_once(const Indexed_mesh&, Detector_options, std::span<const std::uint32_t>);
+extern template std::optional<Frame> frame_at_once(const Surface_mesh&, Own_points<Surface_mesh>, const Surface_mesh&,
+                                                   Own_points<Surface_mesh>, const Detector_options&);
+extern template Frame self_frame_at_once(const Surface_mesh&, Own_points<Surface_mesh>, Detector_options,
+                                         std::span<const std::uint32_t>);
+extern template std::optional<Frame> frame_at_once(const Indexed_mesh&, Own_points<Indexed_mesh>, const Indexed_mesh&,
+                                                   Own_points<Indexed_mesh>, const Detector_options&);
+extern template Frame self_frame_at_once(const Indexed_mesh&, Own_points<Indexed_mesh>, Detector_options,
+                                         std::span<const std::uint32_t>);
 
 }  // namespace lodestone

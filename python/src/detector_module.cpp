@@ -69,6 +69,8 @@ py::object regions(Python_detector& self, Object_id object) {
 }
 
 py::object particles(Python_detector& self, Object_id object) {
+  if (finds_all(self.options().mode))
+    throw Bad_argument("particles needs the mode particles or senin: in the modes exact and certified there are none");
   return array_of<std::int64_t>(
       self.change([&](auto& detector) { return detector.object(object).particles().at; }));
 }

@@ -53,7 +53,7 @@ auto ask_about(const py::object& mesh_a, const py::object& mesh_b, std::size_t t
   constexpr const char *first = "the first argument", *second = "the second argument";
   const Asked_mesh a(mesh_a, py::none(), first), b(mesh_b, py::none(), second);
   const Without_gil without_gil;
-  Detector<Any_strategy> detector({.exact = {.threads = threads}});
+  Detector<Any_strategy> detector({.threads = threads});
   detector.add(a.mesh, {.name = first}), detector.add(b.mesh, {.name = second});
   return question(detector);
 }

@@ -161,7 +161,7 @@ Detector_settings detector_settings(const py::kwargs& keywords) {
       {"containment", to(exact.containment)},
       {"parting", to(exact.parting)},
       {"patches", to(exact.patches)},
-      {"threads", to(exact.threads)},
+      {"threads", to(options.threads)},
       {"throw_if_broken", to(exact.throw_if_broken)},
       {"loosest", to(exact.loosest)},
       {"particles", to(options.particles)},
@@ -191,7 +191,7 @@ Detector_settings detector_settings(const py::kwargs& keywords) {
   if (finds_all(options.mode) && chooses_strategy(keywords) && options.particles == 0)
     options.particles = Detector_options().least_particles;
   options.senin.seed = settings.strategy_settings.seed;
-  settings.strategy_settings.lbg.threads = exact.threads;
+  settings.strategy_settings.lbg.threads = options.threads;
   // Wrong settings are refused also where nothing is divided.
   if (!settings.strategy.function) make_strategy(settings.strategy.name, settings.strategy_settings);
   return settings;

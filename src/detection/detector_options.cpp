@@ -2,6 +2,7 @@
 #include "lodestone/detection/detector_options.h"
 
 #include <cmath>
+#include <initializer_list>
 
 #include "lodestone/mesh/errors.h"
 
@@ -9,8 +10,20 @@ namespace lodestone {
 
 namespace {
 
-void require(bool holds, const char* requirement) {
+void require(bool holds, const std::string& requirement) {
   if (!holds) throw Bad_argument(requirement);
+}
+
+/// An option that not every mode takes.
+struct Mode_option {
+  const char* name;
+  bool is_default;
+};
+
+/// A mode must not ignore silently what only others have.
+/// @param modes  that take them
+void refuse(std::initializer_list<Mode_option> options, const char* modes) {
+  for (const auto& [name, is_default] : options) require(is_default, std::string(name) + " needs the mode " + modes);
 }
 
 /// Meetings decide without what the published method needs.
@@ -20,21 +33,32 @@ bool has_defaults_of_candidates(const Detector_options& options) {
          options.distance_measure == defaults.distance_measure && options.candidates == defaults.candidates;
 }
 
-/// Modes without particles must not ignore silently what only particles have.
-bool has_defaults_of_particles(const Detector_options& options) {
+void refuse_options_of_other_modes(const Detector_options& options) {
   const Detector_options defaults;
-  return has_defaults_of_candidates(options) && options.close_seams == defaults.close_seams;
-}
-
-bool has_defaults_of_meetings(const Detector_options& options) {
-  const Detector_options defaults;
-  return options.meetings == defaults.meetings && options.opening_budget == defaults.opening_budget &&
-         options.opening_reach == defaults.opening_reach;
-}
-
-bool has_defaults_of_exact(const Exact_options& exact) {
-  return !has_tolerance(exact) && !exact.self_collision && !exact.containment && !exact.parting && !exact.patches &&
-         exact.loosest == Exact_options().loosest;
+  const Exact_options& exact = options.exact;
+  if (!finds_all(options.mode))
+    refuse({{"tolerance", exact.tolerance == 0},
+            {"self_tolerance", exact.self_tolerance == 0},
+            {"self_collision", !exact.self_collision},
+            {"containment", !exact.containment},
+            {"parting", !exact.parting},
+            {"patches", !exact.patches},
+            {"loosest", exact.loosest == defaults.exact.loosest}},
+           "exact or certified");
+  if (options.mode != Mode::certified) refuse({{"throw_if_broken", !exact.throw_if_broken}}, "certified");
+  if (finds_all(options.mode))
+    refuse({{"collision_distance", options.collision_distance == defaults.collision_distance},
+            {"distance_measure", options.distance_measure == defaults.distance_measure},
+            {"candidates", options.candidates == defaults.candidates},
+            {"close_seams", options.close_seams},
+            {"least_particles", options.least_particles == defaults.least_particles}},
+           "particles or senin");
+  if (options.mode != Mode::particles)
+    refuse({{"meetings", options.meetings == defaults.meetings},
+            {"opening_budget", options.opening_budget == defaults.opening_budget},
+            {"opening_reach", options.opening_reach == defaults.opening_reach},
+            {"growth", options.growth == defaults.growth}},
+           "particles");
 }
 
 }  // namespace
@@ -46,8 +70,7 @@ void check(const Detector_options& options) {
   require(options.growth > 0, "the growth limit must be > 0");
   require(options.opening_reach > 0 && std::isfinite(options.opening_reach),
           "the reach of openings must be finite and > 0");
-  require(options.mode == Mode::particles || has_defaults_of_meetings(options),
-          "meetings, and the budget and the reach of openings, need the mode particles");
+  require(options.least_particles > 0, "least_particles must be at least 1");
   require(options.mode != Mode::particles || options.meetings == 0 || has_defaults_of_candidates(options),
           "with meetings the collision distance, its measure and the choice of candidates have no effect: set meetings "
           "to 0");
@@ -59,17 +82,8 @@ void check(const Detector_options& options) {
   require(exact.self_tolerance >= 0 && std::isfinite(exact.self_tolerance),
           "the tolerance within one object must be finite and >= 0");
   require(exact.loosest > 1, "a tree must be allowed to become looser than it was built: the factor must be > 1");
-  check(exact.tree);
-  require(
-      finds_all(options.mode) || has_defaults_of_exact(exact),
-      "a distance other than 0, self-collision, containment, parting, contact patches and the limit of looseness need "
-      "the mode exact or certified");
-  require(options.mode == Mode::certified || !exact.throw_if_broken, "throw_if_broken needs the mode certified");
-  require(!finds_all(options.mode) || has_defaults_of_particles(options),
-          "the collision distance, its measure, the choice of candidates and open seams need the mode particles or "
-          "senin");
-  require(options.mode == Mode::particles || options.growth == Detector_options().growth,
-          "the growth limit needs the mode particles");
+  check(options.tree);
+  refuse_options_of_other_modes(options);
 }
 
 std::string title_of(std::uint32_t object, const Object_options& options) {

@@ -29,10 +29,10 @@ void count_tests(const Contact_summary& contacts, Pair_result& result, Frame_sta
 /// The contacts of faces that may meet, by trees of them.
 Contact_summary contacts_by_trees(const Faces_in_box& a, const Faces_in_box& b, const Detector_options& options,
                                   std::vector<Face_pair>& found) {
-  Workers workers(options.exact.threads);
+  Workers workers(options.threads);
   Tree_surface tree_a(a.corners), tree_b(b.corners);
-  tree_a.build({}, a.coordinates, options.exact.tree, workers);
-  tree_b.build({}, b.coordinates, options.exact.tree, workers);
+  tree_a.build({}, a.coordinates, options.tree, workers);
+  tree_b.build({}, b.coordinates, options.tree, workers);
   const Contact_summary contacts = Contact_search(workers).between(tree_a, tree_b, {.query = options.contacts}, found);
   // Faces of a box are in the order of the mesh, so that pairs stay sorted.
   for (Face_pair& pair : found) pair = {a.faces[pair.a], b.faces[pair.b]};
@@ -82,11 +82,11 @@ Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, cons
   builder.start();
   builder.statistics().vertices_read = coordinates.size() / 3;
   builder.statistics().builds = 1;
-  Workers workers(options.exact.threads);
+  Workers workers(options.threads);
   Tree_surface surface(corners);
   const double tolerance = options.exact.self_tolerance;
   timed(builder.seconds().build, [&] {
-    surface.build({}, coordinates, options.exact.tree, workers);
+    surface.build({}, coordinates, options.tree, workers);
     if (tolerance > 0) surface.keep_rest();
   });
   timed(builder.seconds().confirmation, [&] {

@@ -98,7 +98,8 @@ void add_contact_options(CLI::App& app, Detect_command& command) {
       "Modes exact and certified: also report when object pairs meet first between a frame and the next, if every "
       "vertex moves on a straight line");
   app.add_flag("--truth", command.truth,
-               "Compare every frame with exhaustive exact checking, for pairs of two objects; not for self-collisions");
+               "Compare every frame with exhaustive exact checking, for pairs of two objects; not for self-collisions; "
+               "needs all positions, also in mode certified");
 }
 
 void add_particle_options(CLI::App& app, Detector_options& options) {
@@ -152,13 +153,16 @@ void add_outputs(CLI::App& app, Detect_command& command) {
   app.add_option("--out", command.out, "Folder for frames.jsonl and summary.json")
       ->type_name("DIR")
       ->check(not_empty());
-  auto* const html = add_html(app, command.html, "Page (.html) that shows the run; --contacts then defaults to all");
+  auto* const html = add_html(app, command.html,
+                              "Page (.html) that shows the run; --contacts then defaults to all; needs all "
+                              "positions, also in mode certified");
   app.add_option("--html-frames", command.html_frames,
                  "Maximum number of frames on the page: one of every few; 0: few enough to keep it small")
       ->needs(html)
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
       ->capture_default_str();
-  app.add_option("--paraview", command.paraview, "Folder for meshes.pvd, particles.pvd and contacts.pvd")
+  app.add_option("--paraview", command.paraview,
+                 "Folder for meshes.pvd, particles.pvd and contacts.pvd; needs all positions, also in mode certified")
       ->type_name("DIR")
       ->check(not_empty());
   add_shard_options(app, command);
@@ -198,7 +202,7 @@ void set_defaults(const CLI::App& app, Detect_command& command) {
   if (finds_all(options.mode) && command.chooses_strategy && options.particles == 0)
     options.particles = options.least_particles;
   options.senin.seed = command.partition.settings.seed;
-  command.partition.settings.lbg.threads = options.exact.threads;
+  command.partition.settings.lbg.threads = options.threads;
 }
 
 /// Pages and patches show contacts, so they ask for all of them by default.
@@ -216,7 +220,7 @@ void add_detect(CLI::App& program, Detect_command& command, std::string& format)
   add_contact_options(app, command);
   add_particle_options(app, command.options);
   add_exact_options(app, command.options.exact);
-  add_threads(app, command.options.exact.threads, "Maximum number of threads; 0: all of the machine");
+  add_threads(app, command.options.threads, "Maximum number of threads; 0: all of the machine");
   add_strategy_options(app, command.partition, "Seed, for random strategies and --mode senin");
   add_keep_islands(app, command.options.partition);
   add_outputs(app, command);

@@ -110,7 +110,7 @@ TYPED_TEST(Mode_contract, find_collisions_gives_the_same_faces) {
   const Detector_options options{.mode = Mode::particles, .particles = 24, .contacts = Contact_query::all};
   const auto expected = find_collisions(a, b, options);
   const auto collisions = find_collisions(converted<TypeParam>(a), converted<TypeParam>(b), options);
-  EXPECT_TRUE(collisions.collide);
+  EXPECT_TRUE(collisions.collides);
   EXPECT_EQ(collisions.faces, expected.faces);
 }
 
@@ -148,7 +148,7 @@ TYPED_TEST(Mode_contract, find_collisions_takes_meshes_of_two_types) {
   b = as_float(b);
   const auto collisions = find_collisions(a, converted<TypeParam>(b));
   EXPECT_EQ(collisions.faces, exhaustive_face_pairs(a, b));
-  EXPECT_TRUE(collisions.collide);
+  EXPECT_TRUE(collisions.collides);
 }
 
 TYPED_TEST(Mode_contract, bad_meshes_are_refused) {

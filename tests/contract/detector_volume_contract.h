@@ -87,9 +87,8 @@ TYPED_TEST_SUITE_P(Detector_volume_contract);
 TYPED_TEST_P(Detector_volume_contract, all_pairs_of_deforming_surfaces_are_found_with_any_number_of_threads) {
   auto meshes = several_surfaces();
   for (const std::size_t leaf_faces : {4, 64}) {
-    Volume_detector<TypeParam> alone({.mode = Mode::exact, .exact = {.tree = {.leaf_faces = leaf_faces}}});
-    Volume_detector<TypeParam> shared(
-        {.mode = Mode::exact, .exact = {.threads = 2, .tree = {.leaf_faces = leaf_faces}}});
+    Volume_detector<TypeParam> alone({.mode = Mode::exact, .tree = {.leaf_faces = leaf_faces}});
+    Volume_detector<TypeParam> shared({.mode = Mode::exact, .threads = 2, .tree = {.leaf_faces = leaf_faces}});
     add_all(alone, all_of(meshes));
     add_all(shared, all_of(meshes));
     std::size_t colliding = 0;
@@ -119,7 +118,7 @@ TYPED_TEST_P(Detector_volume_contract, all_pairs_are_found_in_any_unit_and_far_f
       return now;
     };
     auto placed_meshes = frame();
-    Volume_detector<TypeParam> detector({.mode = Mode::exact, .exact = {.tree = {.leaf_faces = 8}}});
+    Volume_detector<TypeParam> detector({.mode = Mode::exact, .tree = {.leaf_faces = 8}});
     add_all(detector, all_of(placed_meshes));
     found.push_back(0);
     for (int i = 0; i < 3; ++i) {
@@ -138,7 +137,7 @@ TYPED_TEST_P(Detector_volume_contract, all_pairs_are_found_in_any_unit_and_far_f
 TYPED_TEST_P(Detector_volume_contract, yes_or_no_and_first_contacts_agree_with_exhaustive_checking) {
   auto meshes = several_surfaces();
   for (const auto query : {Contact_query::yes_no, Contact_query::first}) {
-    Volume_detector<TypeParam> detector({.mode = Mode::exact, .contacts = query, .exact = {.tree = {.leaf_faces = 8}}});
+    Volume_detector<TypeParam> detector({.mode = Mode::exact, .contacts = query, .tree = {.leaf_faces = 8}});
     add_all(detector, all_of(meshes));
     std::size_t colliding = 0;
     for (int frame = 0; frame < 4; ++frame) {
@@ -163,7 +162,7 @@ TYPED_TEST_P(Detector_volume_contract, pairs_within_a_tolerance_are_found) {
   std::deque<Surface_mesh> meshes{potato(3), sphere(3, 0.5, {2.1, 0.2, 0}), cloth(5, 5)};
   for (const double tolerance : {0.01, 0.3}) {
     Volume_detector<TypeParam> detector(
-        {.mode = Mode::exact, .exact = {.tolerance = tolerance, .tree = {.leaf_faces = 4}}});
+        {.mode = Mode::exact, .exact = {.tolerance = tolerance}, .tree = {.leaf_faces = 4}});
     add_all(detector, all_of(meshes));
     std::size_t found = 0;
     for (int frame = 0; frame < 4; ++frame) {
@@ -183,7 +182,7 @@ TYPED_TEST_P(Detector_volume_contract, self_collisions_are_found) {
   for (const std::size_t threads : {1, 2}) {
     std::deque<Surface_mesh> meshes{cloth(12, 12), torus_knot({.tube = 0.4, .segments = 40, .sides = 6})};
     Volume_detector<TypeParam> detector(
-        {.mode = Mode::exact, .exact = {.self_collision = true, .threads = threads, .tree = {.leaf_faces = 8}}});
+        {.mode = Mode::exact, .exact = {.self_collision = true}, .threads = threads, .tree = {.leaf_faces = 8}});
     add_all(detector, all_of(meshes));
     for (int frame = 0; frame < 4; ++frame) {
       const Frame& result = detector.detect();
@@ -201,7 +200,7 @@ TYPED_TEST_P(Detector_volume_contract, self_collisions_are_found) {
 
 TYPED_TEST_P(Detector_volume_contract, the_closest_faces_are_found) {
   std::deque<Surface_mesh> meshes{potato(4), sphere(3, 0.5, {2.5, 0.2, 0}), cloth(6, 6)};
-  Volume_detector<TypeParam> detector({.mode = Mode::exact, .exact = {.tree = {.leaf_faces = 4}}});
+  Volume_detector<TypeParam> detector({.mode = Mode::exact, .tree = {.leaf_faces = 4}});
   add_all(detector, all_of(meshes));
   std::size_t apart = 0;
   for (int frame = 0; frame < 5; ++frame) {
@@ -223,7 +222,7 @@ TYPED_TEST_P(Detector_volume_contract, the_first_impact_is_that_of_boxes) {
   auto a = sphere(4), b = sphere(4, 0.5, {3, 0.2, 0});
   const Positions end_a = Numbered_mesh(a).positions.rowwise() + Eigen::RowVector3d(4, 0, 0.1),
                   end_b = Numbered_mesh(b).positions.rowwise() - Eigen::RowVector3d(4, 0.1, 0);
-  Volume_detector<TypeParam> detector({.mode = Mode::exact, .exact = {.tree = {.leaf_faces = 4}}});
+  Volume_detector<TypeParam> detector({.mode = Mode::exact, .tree = {.leaf_faces = 4}});
   Detector<> boxes;
   add_all(detector, {&a, &b}), add_all(boxes, {&a, &b});
   const auto impact = detector.first_impact(0, end_a, 1, end_b), of_boxes = boxes.first_impact(0, end_a, 1, end_b);
@@ -235,7 +234,7 @@ TYPED_TEST_P(Detector_volume_contract, the_first_impact_is_that_of_boxes) {
 
 TYPED_TEST_P(Detector_volume_contract, objects_inside_others_are_found) {
   auto outer = sphere(6), inner = sphere(3, 0.3), other = sphere(3, 0.2, {0, 5, 0});
-  Volume_detector<TypeParam> detector({.mode = Mode::exact, .exact = {.containment = true, .tree = {.leaf_faces = 4}}});
+  Volume_detector<TypeParam> detector({.mode = Mode::exact, .exact = {.containment = true}, .tree = {.leaf_faces = 4}});
   add_all(detector, {&outer, &inner, &other});
   for (const auto& [x, expected] : {std::pair{0.0, Containment::b_in_a},
                                     {0.5, Containment::b_in_a},
@@ -255,7 +254,7 @@ TYPED_TEST_P(Detector_volume_contract, objects_inside_others_are_found) {
 TYPED_TEST_P(Detector_volume_contract, translations_that_part_objects_are_those_of_boxes) {
   auto meshes = several_surfaces();
   meshes.push_back(sphere(3, 0.1, {1.2, 0.3, 0}));  // inside another
-  const Detector_options options{.mode = Mode::exact, .exact = {.parting = true, .tree = {.leaf_faces = 8}}};
+  const Detector_options options{.mode = Mode::exact, .exact = {.parting = true}, .tree = {.leaf_faces = 8}};
   Volume_detector<TypeParam> detector(options);
   Exact_detector boxes({.mode = Mode::exact, .exact = {.parting = true}});
   add_all(detector, all_of(meshes));

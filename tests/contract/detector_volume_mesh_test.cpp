@@ -17,7 +17,7 @@ TYPED_TEST(Detector_volume_mesh, a_polyhedron_gives_the_pairs_of_exhaustive_chec
   auto moving = torus_knot({.radius = 0.7, .tube = 0.1, .segments = 40, .sides = 5});
   const auto a = converted<Polyhedron>(source);
   auto b = converted<Polyhedron>(moving);
-  Volume_detector<TypeParam> detector({.mode = Mode::exact, .exact = {.tree = {.leaf_faces = 8}}});
+  Volume_detector<TypeParam> detector({.mode = Mode::exact, .tree = {.leaf_faces = 8}});
   detector.add(a), detector.add(std::as_const(b));
   std::size_t colliding = 0;
   for (int frame = 0; frame < 4; ++frame) {

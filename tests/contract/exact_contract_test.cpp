@@ -124,13 +124,12 @@ TYPED_TEST(Exact_contract, frames_equal_those_on_a_surface_mesh_and_exhaustive_c
 TYPED_TEST(Exact_contract, frames_with_all_options_equal_those_on_a_surface_mesh) {
   for (const auto& tested : surfaces()) {
     SCOPED_TRACE(tested.name);
-    EXPECT_GT(expect_equal_frames<TypeParam>(tested, {.contact_points = true,
-                                                      .contact_normals = true,
-                                                      .exact = {.tolerance = 0.1,
-                                                                .self_collision = true,
-                                                                .containment = true,
-                                                                .threads = 2,
-                                                                .tree = {.leaf_faces = 4}}}),
+    EXPECT_GT(expect_equal_frames<TypeParam>(tested,
+                                             {.contact_points = true,
+                                              .contact_normals = true,
+                                              .exact = {.tolerance = 0.1, .self_collision = true, .containment = true},
+                                              .threads = 2,
+                                              .tree = {.leaf_faces = 4}}),
               0U);
   }
 }
@@ -249,7 +248,7 @@ TYPED_TEST(Exact_contract, one_call_gives_the_contacts_that_a_detector_gives) {
       for (std::size_t i = 0; i < found.normals.size(); ++i)
         EXPECT_EQ(found.normals[i].normal, expected.contact_normals[i].normal);
       EXPECT_EQ(found.statistics.builds, 0U);
-      EXPECT_EQ(find_collisions(a, tested.b, {.contacts = Contact_query::yes_no}).collide, expected.collides());
+      EXPECT_EQ(find_collisions(a, tested.b, {.contacts = Contact_query::yes_no}).collides, expected.collides());
       contacts += found.faces.size();
     }
     Exact_detector detector(self_collision);
@@ -257,6 +256,40 @@ TYPED_TEST(Exact_contract, one_call_gives_the_contacts_that_a_detector_gives) {
     EXPECT_EQ(find_self_collisions(a).faces, detector.detect().face_pairs);
   }
   EXPECT_GT(contacts, 0U);
+}
+
+TYPED_TEST(Exact_contract, one_call_takes_points_beside_the_meshes) {
+  const auto mesh = converted<TypeParam>(as_float(sphere(8)));
+  const auto other = as_float(sphere(6, 1, {4, 0, 0}));
+  const auto near = CGAL::parameters::vertex_point_map(moved_points(mesh, 0.5, 0.25, 0)),
+             far = CGAL::parameters::vertex_point_map(moved_points(mesh, 4.5, 0.25, 0));
+  const auto own = CGAL::parameters::default_values();
+  const auto of_one = exhaustive_face_pairs(mesh, mesh, own, near), of_two = exhaustive_face_pairs(mesh, other, far);
+  EXPECT_GT(of_one.size(), 5U);
+  EXPECT_GT(of_two.size(), 5U);
+  // Containment needs a detector; without it the call builds nothing.
+  for (const bool with_detector : {false, true}) {
+    const Detector_options options{.exact = {.containment = with_detector}};
+    EXPECT_EQ(find_collisions(mesh, mesh, options, own, near).faces, of_one);
+    EXPECT_EQ(find_collisions(mesh, other, options, far).faces, of_two);
+    EXPECT_FALSE(find_collisions(mesh, other, options, near).collides);
+    EXPECT_THROW(find_collisions(mesh, mesh, options), Bad_argument);
+  }
+}
+
+TYPED_TEST(Exact_contract, one_call_takes_points_beside_the_mesh) {
+  const auto mesh = converted<TypeParam>(as_float(sphere(8)));
+  const auto folded = moved_points(mesh, 0, 0, 0);  // the lower half lies on the upper one, but for a shear
+  for (const auto v : vertices(mesh)) {
+    const auto p = coordinates(get(folded, v));
+    put(folded, v, Point(p.x() + 0.2 * p.z(), p.y(), std::abs(p.z())));
+  }
+  Exact_detector detector(self_collision);
+  detector.add(mesh, folded);
+  const auto found = find_self_collisions(mesh, {}, {}, CGAL::parameters::vertex_point_map(folded));
+  EXPECT_GT(found.faces.size(), 5U);
+  EXPECT_EQ(found.faces, detector.detect().face_pairs);
+  EXPECT_TRUE(find_self_collisions(mesh).faces.empty());
 }
 
 TYPED_TEST(Exact_contract, one_call_refuses_coordinates_that_are_not_finite_and_empty_meshes) {
@@ -323,7 +356,7 @@ TEST(Open_mesh_with_removed_elements, is_refused_until_its_garbage_is_collected)
     EXPECT_THROW(kept.detect(), Bad_mesh);
     open.garbage_collection();
     kept.rebuild(0);
-    EXPECT_EQ(kept.detect().collides(), find_collisions(open, other).collide);
+    EXPECT_EQ(kept.detect().collides(), find_collisions(open, other).collides);
   }
 }
 

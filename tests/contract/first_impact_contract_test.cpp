@@ -11,18 +11,6 @@
 namespace lodestone {
 namespace {
 
-/// A map from vertices to points, beside the mesh: its own points, moved.
-template <class Mesh>
-auto moved_points(const Mesh& mesh, double x, double y, double z) {
-  const auto own = get(CGAL::vertex_point, mesh);
-  const auto points = get(CGAL::dynamic_vertex_property_t<Point>(), mesh);
-  for (const auto v : vertices(mesh)) {
-    const auto p = coordinates(get(own, v));
-    put(points, v, Point(p.x() + x, p.y() + y, p.z() + z));
-  }
-  return points;
-}
-
 template <class Mesh>
 Moving_surface surface_of(const Mesh_numbering<Mesh>& numbering, const Positions& start, const Positions& end) {
   const auto coordinates = [](const Positions& p) { return Coordinates(p.data(), static_cast<std::size_t>(p.size())); };

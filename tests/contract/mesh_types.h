@@ -51,4 +51,16 @@ Mesh converted(const Surface_mesh& source) {
   return mesh;
 }
 
+/// A map from vertices to points, beside the mesh: its own points, moved.
+template <class Mesh>
+auto moved_points(const Mesh& mesh, double x, double y, double z) {
+  const auto own = get(CGAL::vertex_point, mesh);
+  const auto points = get(CGAL::dynamic_vertex_property_t<Point>(), mesh);
+  for (const auto v : vertices(mesh)) {
+    const auto p = coordinates(get(own, v));
+    put(points, v, Point(p.x() + x, p.y() + y, p.z() + z));
+  }
+  return points;
+}
+
 }  // namespace lodestone

@@ -37,7 +37,7 @@ void expect_refused(Detector<>& built) {
 
 TEST(Arithmetic, of_a_thread_that_rounds_to_nearest_is_taken) {
   const Surface_mesh a = icosphere(2), b = icosphere(3);
-  EXPECT_TRUE(find_collisions(a, b).collide);
+  EXPECT_TRUE(find_collisions(a, b).collides);
 }
 
 /// A detector in mode `particles` that has been asked.

@@ -71,7 +71,7 @@ struct Certified_scene {
 
 inline Detector_options in_mode(Mode mode, Detector_options options) {
   options.mode = mode;
-  options.exact.tree.leaf_faces = 24;
+  options.tree.leaf_faces = 24;
   return options;
 }
 
@@ -108,7 +108,7 @@ inline std::vector<Detector_options> questions() {
           {.exact = {.tolerance = 0.1}},
           {.contact_points = true, .contact_normals = true, .exact = {.patches = true}},
           {.exact = {.self_collision = true, .containment = true, .parting = true}},
-          {.particles = 4, .exact = {.tolerance = 0.05, .threads = 0}}};
+          {.particles = 4, .exact = {.tolerance = 0.05}, .threads = 0}};
 }
 
 }  // namespace lodestone

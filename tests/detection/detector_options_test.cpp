@@ -10,6 +10,7 @@
 #include "lodestone/detector.h"
 #include "lodestone/find_collisions.h"
 #include "lodestone/queries/exhaustive.h"
+#include "support/message_of.h"
 #include "support/test_meshes.h"
 
 namespace lodestone {
@@ -20,7 +21,7 @@ TEST(Detector_options, all_contacts_are_reported_unless_less_is_asked_for) {
   const auto a = sphere(12), b = sphere(12, 1, {1.8, 0.1, 0.2});
   const auto truth = exhaustive_face_pairs(a, b);
   const auto found = find_collisions(a, b, {.mode = Mode::particles, .particles = 32});
-  EXPECT_TRUE(found.collide);
+  EXPECT_TRUE(found.collides);
   EXPECT_GT(found.faces.size(), 1U);
   EXPECT_TRUE(std::ranges::includes(truth, found.faces));
 }
@@ -49,6 +50,49 @@ TEST(Detector_options, without_effect_are_refused) {
   EXPECT_THROW(Detector<>({.mode = Mode::senin, .growth = 2}), Bad_argument);
   EXPECT_NO_THROW(Detector<>({.mode = Mode::particles, .opening_budget = 9, .opening_reach = 2, .growth = 2}));
   EXPECT_THROW(Detector<>({.contacts = Contact_query::yes_no, .exact = {.patches = true}}), Bad_argument);
+}
+
+TEST(Detector_options, of_another_mode_are_named_with_the_modes_that_take_them) {
+  const auto refusal = [](Detector_options options, Mode mode) {
+    options.mode = mode;
+    return message_of<Bad_argument>([&] { check(options); });
+  };
+  const std::vector<std::pair<std::string, Detector_options>> of_all{
+      {"tolerance", {.exact = {.tolerance = 1}}},
+      {"self_tolerance", {.exact = {.self_tolerance = 1}}},
+      {"self_collision", {.exact = {.self_collision = true}}},
+      {"containment", {.exact = {.containment = true}}},
+      {"parting", {.exact = {.parting = true}}},
+      {"patches", {.exact = {.patches = true}}},
+      {"loosest", {.exact = {.loosest = 3}}}};
+  for (const auto& [name, options] : of_all) {
+    for (const auto mode : {Mode::exact, Mode::certified}) EXPECT_EQ(refusal(options, mode), "no error") << name;
+    for (const auto mode : {Mode::particles, Mode::senin})
+      EXPECT_EQ(refusal(options, mode), name + " needs the mode exact or certified");
+  }
+  const std::vector<std::pair<std::string, Detector_options>> of_particles{
+      {"collision_distance", {.meetings = 0, .collision_distance = 2}},
+      {"distance_measure", {.meetings = 0, .distance_measure = Distance_measure::all_vertices}},
+      {"candidates", {.meetings = 0, .candidates = Candidate_choice::closest}},
+      {"close_seams", {.close_seams = false}},
+      {"least_particles", {.least_particles = 3}}};
+  for (auto [name, options] : of_particles) {
+    EXPECT_EQ(refusal(options, Mode::particles), "no error") << name;
+    options.meetings = Detector_options().meetings;
+    EXPECT_EQ(refusal(options, Mode::senin), "no error") << name;
+    for (const auto mode : {Mode::exact, Mode::certified})
+      EXPECT_EQ(refusal(options, mode), name + " needs the mode particles or senin");
+  }
+  const std::vector<std::pair<std::string, Detector_options>> of_meetings{{"meetings", {.meetings = 5}},
+                                                                          {"opening_budget", {.opening_budget = 9}},
+                                                                          {"opening_reach", {.opening_reach = 2}},
+                                                                          {"growth", {.growth = 2}}};
+  for (const auto& [name, options] : of_meetings) {
+    EXPECT_EQ(refusal(options, Mode::particles), "no error") << name;
+    for (const auto mode : {Mode::exact, Mode::certified, Mode::senin})
+      EXPECT_EQ(refusal(options, mode), name + " needs the mode particles");
+  }
+  EXPECT_EQ(refusal({.least_particles = 0}, Mode::particles), "least_particles must be at least 1");
 }
 
 TEST(Detector, an_unknown_object_has_neither_state_nor_maps) {

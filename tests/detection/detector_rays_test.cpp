@@ -56,7 +56,7 @@ TEST(Detector_rays, follow_the_positions) {
 
 TEST(Detector_rays, follow_a_tree_that_is_built_anew_since_it_was_loose) {
   auto mesh = sphere(10);
-  Exact_detector detector({.exact = {.loosest = 1.2, .tree = {.leaf_faces = 8}}});
+  Exact_detector detector({.exact = {.loosest = 1.2}, .tree = {.leaf_faces = 8}});
   detector.add(mesh);
   expect_answers_of_a_fresh_detector(detector, mesh);
   std::mt19937_64 random(2);

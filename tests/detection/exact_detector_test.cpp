@@ -128,7 +128,7 @@ TEST(Exact_detector, lists_at_most_so_many_contacts_and_says_when_there_are_more
   for (const std::size_t threads : {1, 3})
     for (const std::size_t most : {std::size_t{1}, std::size_t{2}, std::size_t{17}, truth.size() - 1, truth.size(),
                                    truth.size() + 1, std::numeric_limits<std::size_t>::max()}) {
-      Exact_detector detector({.mode = Mode::exact, .most_contacts = most, .exact = {.threads = threads}});
+      Exact_detector detector({.mode = Mode::exact, .most_contacts = most, .threads = threads});
       add_all(detector, {&a, &b, &c});
       const Frame& frame = detector.detect();
       ASSERT_EQ(frame.pairs.size(), 1U);

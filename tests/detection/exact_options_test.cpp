@@ -19,7 +19,7 @@ TEST(Exact_options, out_of_range_are_refused) {
   for (const double bad : {1.0, 0.5, 0.0, -2.0, -infinity, not_a_number})
     EXPECT_THROW(Exact_detector({.mode = Mode::exact, .exact = {.loosest = bad}}), Bad_argument) << bad;
   for (const std::size_t bad : {0, 1, 129, 1000000})
-    EXPECT_THROW(Exact_detector({.mode = Mode::exact, .exact = {.tree = {.leaf_faces = bad}}}), Bad_argument) << bad;
+    EXPECT_THROW(Exact_detector({.mode = Mode::exact, .tree = {.leaf_faces = bad}}), Bad_argument) << bad;
   for (const auto mode : {Mode::particles, Mode::senin, Mode::exact}) {
     EXPECT_THROW(Detector<>({.mode = mode, .most_contacts = 0}), Bad_argument);
     EXPECT_THROW(Detector<>({.mode = mode, .contacts = Contact_query::yes_no, .contact_points = true}), Bad_argument);
@@ -41,7 +41,8 @@ TEST(Exact_options, at_the_ends_of_their_ranges_are_taken) {
       for (const std::size_t particles : {1, 5, 5000}) {
         Exact_detector detector({.mode = Mode::exact,
                                  .particles = particles,
-                                 .exact = {.loosest = loosest, .tree = {.leaf_faces = leaf_faces}}});
+                                 .exact = {.loosest = loosest},
+                                 .tree = {.leaf_faces = leaf_faces}});
         add_all(detector, {&a, &b});
         expect_contacts(detector.detect(), 0, 1, truth);
         const Region_tree& tree = detector.tree(0);

@@ -43,7 +43,7 @@ std::size_t rebuilds_while_mixing(double loosest, std::size_t strays = 0) {
   for (std::size_t i = 0; i < strays; ++i) to[i] = Point(i == 1 ? -1000 : 1000, i == 2 ? -1000 : 1000, 1000);
   auto soup = pieces_at(from);
   const auto body = potato(10);
-  Exact_detector detector({.mode = Mode::exact, .exact = {.loosest = loosest, .tree = {.leaf_faces = 16}}});
+  Exact_detector detector({.mode = Mode::exact, .exact = {.loosest = loosest}, .tree = {.leaf_faces = 16}});
   add_all(detector, {&soup, &body});
   std::size_t rebuilds = 0;
   for (int frame = 0; frame <= 10; ++frame) {
@@ -98,7 +98,7 @@ TEST(Exact_rebuild, vertices_that_scatter_are_followed) {
 TEST(Exact_rebuild, one_tree_is_built_anew_while_others_stay) {
   auto soup = pieces_at(places(1));
   const auto a = sphere(8), b = sphere(8, 1, {0.5, 0, 0});
-  Exact_detector detector({.mode = Mode::exact, .exact = {.tree = {.leaf_faces = 16}}});
+  Exact_detector detector({.mode = Mode::exact, .tree = {.leaf_faces = 16}});
   add_all(detector, {&a, &soup, &b});
   detector.detect();
   place(soup, positions_of(pieces_at(places(2))));

@@ -29,13 +29,13 @@ TEST(Find_collisions, reports_faces_that_intersect_and_no_others) {
     shift(b, offset(random), offset(random), offset(random));
     const auto truth = exhaustive_face_pairs(a, b);
     const auto collisions = find_collisions(a, b, {.mode = Mode::particles});
-    EXPECT_EQ(collisions.collide, !collisions.faces.empty());
+    EXPECT_EQ(collisions.collides, !collisions.faces.empty());
     EXPECT_TRUE(std::ranges::is_sorted(collisions.faces));
     EXPECT_TRUE(std::ranges::includes(truth, collisions.faces));
     EXPECT_EQ(collisions.statistics.contacts, collisions.faces.size());
     EXPECT_TRUE(collisions.points.empty());
     positive += truth.empty() ? 0 : 1;
-    found += collisions.collide ? 1 : 0;
+    found += collisions.collides ? 1 : 0;
   }
   EXPECT_GT(positive, 5U);
   EXPECT_GT(found, 0U);
@@ -48,7 +48,7 @@ TEST(Find_collisions, misses_nothing_without_options) {
     shift(b, x, 0.2, -0.1);
     const auto truth = exhaustive_face_pairs(a, b);
     const auto collisions = find_collisions(a, b);
-    EXPECT_EQ(collisions.collide, !truth.empty()) << x;
+    EXPECT_EQ(collisions.collides, !truth.empty()) << x;
     EXPECT_EQ(collisions.faces, truth) << x;
   }
 }
@@ -74,7 +74,7 @@ TEST(Find_collisions, in_mode_exact_sees_that_one_mesh_lies_inside_the_other) {
   auto small = sphere(6);
   for (const auto v : small.vertices()) small.point(v) = Point(0.1 * small.point(v).x(), 0, 0.1 * small.point(v).z());
   const auto collisions = find_collisions(sphere(6), small, {.mode = Mode::exact, .exact = {.containment = true}});
-  EXPECT_FALSE(collisions.collide);
+  EXPECT_FALSE(collisions.collides);
   EXPECT_EQ(collisions.containment, Containment::b_in_a);
 }
 
@@ -84,7 +84,7 @@ TEST(Find_collisions, tells_near_from_colliding) {
   shift(b, 1.25);
   const auto near = find_collisions(a, b, {.exact = {.tolerance = 0.3}});
   EXPECT_TRUE(near.near);
-  EXPECT_FALSE(near.collide);
+  EXPECT_FALSE(near.collides);
   EXPECT_EQ(near.faces, near_face_pairs(a, b, 0.3));
   EXPECT_FALSE(find_collisions(a, b).near);
 }
@@ -93,7 +93,7 @@ TEST(Find_collisions, of_meshes_far_apart_finds_nothing) {
   auto b = sphere(6);
   shift(b, 500);
   const auto collisions = find_collisions(sphere(6), b, {.mode = Mode::particles});
-  EXPECT_FALSE(collisions.collide);
+  EXPECT_FALSE(collisions.collides);
   EXPECT_TRUE(collisions.faces.empty());
 }
 
@@ -156,7 +156,7 @@ Collisions self_by_detector(const Surface_mesh& mesh, Detector_options options,
 }
 
 void expect_same(const Collisions& found, const Collisions& expected) {
-  EXPECT_EQ(found.collide, expected.collide);
+  EXPECT_EQ(found.collides, expected.collides);
   EXPECT_EQ(found.near, expected.near);
   EXPECT_EQ(found.faces, expected.faces);
   EXPECT_EQ(found.points, expected.points);
@@ -229,7 +229,7 @@ TEST(Find_collisions, answers_as_a_detector_does_whatever_the_options_ask_for) {
                                             {.exact = {.tolerance = 0.05}},
                                             {.exact = {.self_collision = true, .containment = true}},
                                             {.exact = {.parting = true, .patches = true}},
-                                            {.exact = {.threads = 2}},
+                                            {.threads = 2},
                                             {.contact_normals = true, .exact = {.self_tolerance = 0.1}}};
   std::size_t colliding = 0;
   const auto pairs = mesh_pairs();
@@ -239,7 +239,7 @@ TEST(Find_collisions, answers_as_a_detector_does_whatever_the_options_ask_for) {
       const auto& [a, b] = pairs[p];
       const Collisions found = find_collisions(a, b, cases[c]);
       expect_same(found, by_detector(a, b, cases[c]));
-      colliding += found.collide ? 1 : 0;
+      colliding += found.collides ? 1 : 0;
     }
   EXPECT_GT(colliding, pairs.size() * cases.size() / 4);
   EXPECT_LT(colliding, pairs.size() * cases.size());
@@ -249,7 +249,7 @@ TEST(Find_collisions, gives_a_single_true_contact_if_asked_for_the_first) {
   for (const auto& [a, b] : mesh_pairs()) {
     const auto truth = exhaustive_face_pairs(a, b);
     const auto found = find_collisions(a, b, {.contacts = Contact_query::first, .contact_points = true});
-    EXPECT_EQ(found.collide, !truth.empty());
+    EXPECT_EQ(found.collides, !truth.empty());
     EXPECT_EQ(found.faces.size(), truth.empty() ? 0U : 1U);
     EXPECT_EQ(found.points.size(), found.faces.size());
     EXPECT_TRUE(std::ranges::includes(truth, found.faces));
@@ -260,7 +260,7 @@ TEST(Find_collisions, builds_nothing_unless_options_need_it) {
   const auto a = sphere(8), b = sphere(8, 1, {1.5, 0.1, 0});
   for (const auto contacts : {Contact_query::all, Contact_query::first, Contact_query::yes_no}) {
     const auto found = find_collisions(a, b, {.contacts = contacts});
-    EXPECT_TRUE(found.collide);
+    EXPECT_TRUE(found.collides);
     EXPECT_EQ(found.statistics.builds, 0U);
     EXPECT_EQ(found.statistics.seconds.build, 0);
     EXPECT_EQ(found.statistics.vertices_read, a.number_of_vertices() + b.number_of_vertices());
@@ -350,10 +350,10 @@ TEST(Find_collisions, answers_by_trees_where_boxes_part_little) {
     Detector detector;
     detector.add(a), detector.add(b);
     const auto collisions = find_collisions(a, b);
-    EXPECT_EQ(collisions.collide, meet);
+    EXPECT_EQ(collisions.collides, meet);
     EXPECT_EQ(collisions.faces, detector.detect(0, 1).face_pairs);
     EXPECT_EQ(find_collisions(a, b, {.contacts = Contact_query::first}).faces.size(), meet ? 1U : 0U);
-    EXPECT_EQ(find_collisions(a, b, {.contacts = Contact_query::yes_no}).collide, meet);
+    EXPECT_EQ(find_collisions(a, b, {.contacts = Contact_query::yes_no}).collides, meet);
   }
 }
 
@@ -363,13 +363,13 @@ TEST(Find_self_collisions, answers_as_a_detector_does) {
                                             {.contact_points = true, .contact_normals = true},
                                             {.exact = {.self_tolerance = 0.05}},
                                             {.exact = {.patches = true}},
-                                            {.exact = {.threads = 2}}};
+                                            {.threads = 2}};
   std::size_t colliding = 0;
   for (const auto& mesh : folded_meshes())
     for (const auto& options : cases) {
       const Collisions found = find_self_collisions(mesh, options);
       expect_same(found, self_by_detector(mesh, options));
-      colliding += found.collide ? 1 : 0;
+      colliding += found.collides ? 1 : 0;
     }
   EXPECT_GT(colliding, 4 * cases.size());
 }
@@ -392,8 +392,8 @@ TEST(Find_self_collisions, joins_vertices_of_one_file_vertex) {
   std::map<Point, std::uint32_t> places;
   for (const auto v : mesh.vertices())
     file_vertex[v] = places.try_emplace(mesh.point(v), static_cast<std::uint32_t>(places.size())).first->second;
-  EXPECT_TRUE(find_self_collisions(mesh).collide);
-  EXPECT_FALSE(find_self_collisions(mesh, {}, file_vertex).collide);
+  EXPECT_TRUE(find_self_collisions(mesh).collides);
+  EXPECT_FALSE(find_self_collisions(mesh, {}, file_vertex).collides);
   EXPECT_THROW(find_self_collisions(mesh, {}, std::vector<std::uint32_t>(3)), Bad_argument);
 }
 

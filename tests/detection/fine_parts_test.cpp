@@ -76,7 +76,7 @@ TEST(Fine_parts, of_two_surfaces_give_the_same_contacts_at_any_size_for_about_th
         if (hall != Hall::row_of_faces) {
           EXPECT_LE(found.statistics.exact_tests, 2 * truth.statistics.exact_tests);
         }
-        EXPECT_TRUE(find_collisions(fine_a, fine_b, {.contacts = Contact_query::yes_no}).collide);
+        EXPECT_TRUE(find_collisions(fine_a, fine_b, {.contacts = Contact_query::yes_no}).collides);
         const Frame frame = frame_of({&fine_a, &fine_b}, {});
         EXPECT_EQ(frame.face_pairs, truth.faces);
         if (hall != Hall::row_of_faces) {

@@ -122,7 +122,7 @@ struct Row_of_balls {
 TEST(Detector_first_impact, of_all_objects_is_the_earliest_of_those_that_may_collide) {
   for (const std::size_t threads : {1, 2, 5}) {
     Row_of_balls row;
-    Exact_detector detector({.exact = {.threads = threads}});
+    Exact_detector detector({.threads = threads});
     for (auto& ball : row.balls) detector.add(ball.mesh);
     const auto all = detector.first_impact(row.ends);
     ASSERT_TRUE(all);
@@ -147,7 +147,7 @@ TEST(Detector_first_impact, of_each_pair_is_that_of_the_pair_alone) {
     for (const bool self : {false, true}) {
       Row_of_balls row;
       row.ends[1].col(0) *= -1;  // turned inside out on the way
-      Exact_detector detector({.exact = {.self_collision = self, .threads = threads}});
+      Exact_detector detector({.exact = {.self_collision = self}, .threads = threads});
       for (auto& ball : row.balls) detector.add(ball.mesh);
       detector.ignore(2, 3);
       const auto expect_all = [&](Object_id objects) {

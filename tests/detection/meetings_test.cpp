@@ -106,7 +106,7 @@ TEST(Meetings, the_same_scene_gives_the_same_frames_for_any_number_of_threads) {
       auto options = by_meetings(query);
       options.opening_budget = budget;
       Detector<> first(options);
-      options.exact.threads = 3;
+      options.threads = 3;
       Detector<> second(options);
       add_all(first, one), add_all(second, other);
       for (int frame = 0; frame < 10; ++frame) {

@@ -77,7 +77,7 @@ TEST(Object_hits, are_those_of_one_mesh_of_all_objects) {
   }
   for (const Mode mode : {Mode::exact, Mode::certified})
     for (const std::size_t threads : {1, 3}) {
-      Detector<> detector({.mode = mode, .exact = {.threads = threads}});
+      Detector<> detector({.mode = mode, .threads = threads});
       scene.add_to(detector);
       EXPECT_GT(scene.expect_first_of_whole(detector, rays_through(4, 400, 1)), 100U);
       EXPECT_GT(scene.expect_first_of_whole(detector, rays_through(4, 400, 2)), 100U) << "by trees for rays";

@@ -167,7 +167,7 @@ TEST(Saved_objects, know_the_kind_of_their_volumes) {
 TEST(Saved_objects, do_not_depend_on_threads) {
   auto meshes = two_spheres(1.8, 40);
   for (const auto mode : {Mode::exact, Mode::particles}) {
-    Detector<> one({.mode = mode}), three({.mode = mode, .exact = {.threads = 3}});
+    Detector<> one({.mode = mode}), three({.mode = mode, .threads = 3});
     add_all(one, meshes), add_all(three, meshes);
     EXPECT_EQ(one.save(0), three.save(0));
   }
@@ -284,7 +284,7 @@ TEST(Saved_objects, may_name_a_vertex_twice_and_have_vertices_without_a_face) {
 
 TEST(Saved_objects, can_change_afterwards) {
   expect_right_after_a_change({});
-  expect_right_after_a_change({.exact = {.tree = {.leaf_faces = 16}}});
+  expect_right_after_a_change({.tree = {.leaf_faces = 16}});
 }
 
 TEST(Saved_objects, know_how_loose_their_trees_were) {

@@ -104,7 +104,7 @@ TEST(Self_tolerance_of_a_detector, finds_the_same_with_any_volume_and_number_of_
   auto sheet = flat;
   auto options = within_one(0.02);
   Exact_detector boxes(options);
-  options.exact.threads = 2;
+  options.threads = 2;
   Exact_detector shared(options);
   Volume_detector<Bounding_sphere> spheres(options);
   for (int frame = 0; frame < 3; ++frame) {

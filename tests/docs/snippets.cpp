@@ -154,8 +154,8 @@ TEST_F(Snippets, of_the_readme) {
   const auto by_particles =
       lodestone::find_collisions(mesh_a, mesh_b, {.mode = lodestone::Mode::particles, .particles = 32});
   const auto folds = lodestone::find_self_collisions(mesh_a);
-  EXPECT_FALSE(folds.collide);
-  EXPECT_TRUE(found.collide);
+  EXPECT_FALSE(folds.collides);
+  EXPECT_TRUE(found.collides);
   EXPECT_TRUE(std::ranges::includes(found.faces, by_particles.faces));
 }
 
@@ -242,10 +242,10 @@ TEST_F(Snippets, of_particles) {
 
 TEST_F(Snippets, of_more_than_face_pairs) {
   double least_distance = std::numeric_limits<double>::infinity(), longest_way_out = 0;
-  lodestone::Detector detector(
-      {.contact_points = true,
-       .contact_normals = true,
-       .exact = {.tolerance = 0.001, .self_collision = true, .containment = true, .threads = 0}});
+  lodestone::Detector detector({.contact_points = true,
+                                .contact_normals = true,
+                                .exact = {.tolerance = 0.001, .self_collision = true, .containment = true},
+                                .threads = 0});
   const auto cloth = detector.add(cloth_mesh), body = detector.add(body_mesh, {.groups = 2, .meets = 1});
   while (move(cloth_mesh, body_mesh)) {
     const auto held = detector.hold_positions();        // none moves until the end of this round

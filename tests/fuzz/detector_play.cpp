@@ -19,14 +19,15 @@ double draw_distance(Byte_source& bytes) {
   return choice < 6 ? usual[choice] : std::abs(bytes.coordinate());
 }
 
-void draw_exact_options(Byte_source& bytes, Exact_options& exact) {
+void draw_exact_options(Byte_source& bytes, Detector_options& options) {
+  Exact_options& exact = options.exact;
   if (bytes.below(4) == 0) exact.tolerance = draw_distance(bytes);
   const auto asked = bytes.byte();
   exact.self_collision = (asked & 1U) != 0;
   exact.containment = asked % 16 == 2;
   exact.parting = asked % 16 == 4;
   exact.patches = asked % 16 == 6;
-  exact.tree.leaf_faces = 2 + bytes.below(16);
+  options.tree.leaf_faces = 2 + bytes.below(16);
 }
 
 /// Mostly all objects meet.
@@ -43,8 +44,9 @@ Detector_options draw_options(Byte_source& bytes) {
                             Mode::certified, Mode::certified, Mode::particles, Mode::senin};
   Detector_options options{.mode = modes[bytes.below(8)]};
   options.particles = bytes.below(4);
-  options.least_particles = 1 + bytes.below(4);
-  options.exact.threads = 1 + bytes.below(2);
+  const std::size_t least_particles = 1 + bytes.below(4);
+  if (!finds_all(options.mode)) options.least_particles = least_particles;
+  options.threads = 1 + bytes.below(2);
   if (bytes.below(8) == 0) options.most_contacts = 1 + bytes.below(8);
   const auto contacts = bytes.below(16);
   if (contacts == 0) options.contacts = Contact_query::first;
@@ -52,7 +54,7 @@ Detector_options draw_options(Byte_source& bytes) {
   options.contact_points = contacts == 2;
   options.contact_normals = contacts == 3;
   if (options.mode == Mode::particles) options.meetings = bytes.below(3);
-  if (finds_all(options.mode)) draw_exact_options(bytes, options.exact);
+  if (finds_all(options.mode)) draw_exact_options(bytes, options);
   if (options.exact.patches && options.contacts == Contact_query::yes_no) options.exact.patches = false;
   return options;
 }

@@ -30,7 +30,7 @@ void make_cloth(double height, Drawn_object& object) {
 
 std::vector<Detector_options> all_options() {
   Detector_options exact{.mode = Mode::exact};
-  exact.exact.tree.leaf_faces = 8;
+  exact.tree.leaf_faces = 8;
   Detector_options regions = exact;
   regions.particles = 4;
   Detector_options near_itself = exact;

@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t most_failures = 160;
 
 Tried_mode tried(std::string name, std::size_t threads, Detector_options options) {
-  options.exact.threads = threads;
-  options.exact.tree.leaf_faces = 8;
+  options.threads = threads;
+  options.tree.leaf_faces = 8;
   return {name + ", threads: " + std::to_string(threads), options};
 }
 

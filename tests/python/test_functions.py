@@ -117,6 +117,9 @@ def test_contacts_within_a_tolerance_tell_whether_they_intersect():
     ({"normal_weight": float("nan")}, "weights"),
     ({"strategy": "kmeans++", "lbg_tolerance": float("nan")}, "tolerance"),
     ({"throw_if_broken": True}, "throw_if_broken needs the mode certified"),
+    ({"close_seams": False}, "^close_seams needs the mode particles or senin$"),
+    ({"least_particles": 30}, "^least_particles needs the mode particles or senin$"),
+    ({"meetings": 0}, "^meetings needs the mode particles$"),
 ])
 def test_options_are_checked_where_nothing_needs_them(options, text):
     for ask in [lambda: lodestone.find_collisions(cube(), cube().moved(1), **options),
@@ -204,7 +207,7 @@ def test_threads_of_a_partition_are_refused_where_the_strategy_has_none():
 
 @pytest.mark.parametrize("mode", ["exact", "certified"])
 @pytest.mark.parametrize("option", [{"strategy": "grid"}, {"strategy": slices}, {"seed": 3}, {"normal_weight": 2},
-                                    {"keep_islands": True}, {"seed": 3, "least_particles": 30}])
+                                    {"keep_islands": True}, {"seed": 3}])
 def test_a_strategy_or_a_setting_of_one_asks_for_regions(mode, option):
     def regions(**options):
         detector = lodestone.Detector(mode=mode, **options)

@@ -8,7 +8,7 @@ namespace lodestone {
 namespace {
 
 std::vector<Frame> certified_frames(Detector_options options, std::size_t threads) {
-  options.exact.threads = threads;
+  options.threads = threads;
   Certified_scene scene;
   Detector<> detector(in_mode(Mode::certified, options));
   scene.add_to(detector);

@@ -25,7 +25,7 @@ std::vector<Frame> frames(Detector_options options, std::size_t threads) {
       torus_knot({.tube = 0.5, .segments = 8 * static_cast<std::size_t>(parts), .sides = 10})};
   for (int i = 0; i < 5; ++i) owned.push_back(sphere(6, 0.4, {std::cos(1.0 * i), std::sin(1.0 * i), 0.1 * i}));
   options.mode = Mode::exact;
-  options.exact.threads = threads;
+  options.threads = threads;
   options.exact.self_collision = true;
   options.exact.containment = true;
   options.exact.parting = true;
@@ -83,7 +83,7 @@ TEST(Exact_threads, a_first_contact_that_is_met_late_does_not_depend_on_their_nu
       std::vector<Frame> found;
       for (const std::size_t threads : {1, 2, 3, 0}) {
         Exact_detector detector(
-            {.mode = Mode::exact, .contacts = query, .exact = {.threads = threads, .tree = {.leaf_faces = 8}}});
+            {.mode = Mode::exact, .contacts = query, .threads = threads, .tree = {.leaf_faces = 8}});
         add_all(detector, {&low, &high});
         found.push_back(detector.detect());
         EXPECT_TRUE(found.back().collides());
@@ -99,7 +99,7 @@ TEST(Exact_threads, capped_contacts_do_not_depend_on_their_number) {
 }
 
 TEST(Exact_threads, near_faces_do_not_depend_on_their_number) {
-  expect_the_same_for_any_number_of_threads({.exact = {.tolerance = 0.01, .tree = {.leaf_faces = 8}}});
+  expect_the_same_for_any_number_of_threads({.exact = {.tolerance = 0.01}, .tree = {.leaf_faces = 8}});
 }
 
 TEST(Exact_threads, any_number_may_be_allowed_and_nothing_is_printed) {
@@ -107,7 +107,7 @@ TEST(Exact_threads, any_number_may_be_allowed_and_nothing_is_printed) {
   const auto truth = exhaustive_face_pairs(a, b);
   testing::internal::CaptureStderr();
   for (const std::size_t threads : {std::size_t{64}, std::size_t{1} << 31, std::numeric_limits<std::size_t>::max()}) {
-    Exact_detector detector({.mode = Mode::exact, .exact = {.threads = threads}});
+    Exact_detector detector({.mode = Mode::exact, .threads = threads});
     add_all(detector, {&a, &b});
     expect_contacts(detector.detect(), 0, 1, truth);
   }
@@ -118,7 +118,7 @@ TEST(Exact_threads, closest_faces_and_containment_do_not_depend_on_their_number)
   std::vector<Closest_faces> expected;
   for (const std::size_t threads : {1, 2, 3, 5, 0}) {
     const auto a = sphere(20), b = potato(20), c = sphere(9, 0.25);
-    Exact_detector detector({.mode = Mode::exact, .exact = {.threads = threads}});
+    Exact_detector detector({.mode = Mode::exact, .threads = threads});
     add_all(detector, {&a, &b, &c});
     std::vector<Closest_faces> found{detector.closest(0, 1), detector.closest(0, 2), detector.closest(2, 1)};
     EXPECT_TRUE(detector.contains(0, 2));
@@ -158,7 +158,7 @@ TEST(Exact_threads, rays_and_points_get_the_answers_that_each_of_them_gets_alone
     const auto rays = rays_around(count);
     const auto points = points_around(rays);
     for (const std::size_t threads : {1, 2, 3, 5, 0}) {
-      Exact_detector detector({.mode = Mode::exact, .exact = {.threads = threads}});
+      Exact_detector detector({.mode = Mode::exact, .threads = threads});
       detector.add(mesh);
       const auto hits = detector.first_hits(0, rays);
       const auto nearest = detector.closest_points(0, points);
@@ -196,7 +196,7 @@ TEST(Exact_threads, the_first_of_the_rays_that_are_wrong_is_told) {
   rays[300].length = -1;
   rays[301].origin.x() = std::nan("");
   for (const std::size_t threads : {1, 2, 5}) {
-    Exact_detector detector({.mode = Mode::exact, .exact = {.threads = threads}});
+    Exact_detector detector({.mode = Mode::exact, .threads = threads});
     const auto mesh = potato(12);
     detector.add(mesh);
     const auto told = [&] {

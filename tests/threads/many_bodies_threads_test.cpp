@@ -19,9 +19,9 @@ std::deque<Surface_mesh> bodies() {
 }
 
 std::vector<Frame> frames(std::deque<Surface_mesh> owned, Detector_options options, std::size_t threads) {
-  options.exact.threads = threads;
+  options.threads = threads;
   // So small that the large body is not searched as one of the small ones.
-  options.exact.tree.leaf_faces = 8;
+  options.tree.leaf_faces = 8;
   Exact_detector detector(options);
   add_all(detector, all_of(owned));
   std::vector<Frame> result;
@@ -46,7 +46,7 @@ void expect_the_same(const std::deque<Surface_mesh>& owned, const Detector_optio
 
 TEST(Many_bodies_threads, all_contacts_are_those_of_exhaustive_checking) {
   const auto owned = bodies();
-  Exact_detector detector({.exact = {.self_collision = true, .threads = 2}});
+  Exact_detector detector({.exact = {.self_collision = true}, .threads = 2});
   add_all(detector, all_of(owned));
   const Frame& frame = detector.detect();
   std::size_t pairs = 0;
@@ -95,7 +95,7 @@ TEST(Many_bodies_threads, first_impacts_do_not_depend_on_their_number) {
       ends.back().rowwise() += centre;
     }
   const auto impacts = [&](std::size_t threads) {
-    Exact_detector detector({.exact = {.self_collision = true, .threads = threads}});
+    Exact_detector detector({.exact = {.self_collision = true}, .threads = threads});
     add_all(detector, all_of(owned));
     return detector.first_impacts(ends);
   };
@@ -119,7 +119,7 @@ TEST(Many_bodies_threads, points_and_normals_of_many_contacts_do_not_depend_on_t
     std::vector<Frame> found;
     for (const std::size_t threads : {1, 2, 5}) {
       Exact_detector detector(
-          {.contact_points = true, .contact_normals = true, .exact = {.tolerance = tolerance, .threads = threads}});
+          {.contact_points = true, .contact_normals = true, .exact = {.tolerance = tolerance}, .threads = threads});
       add_all(detector, all_of(owned));
       found.push_back(detector.detect());
       EXPECT_GT(found.back().face_pairs.size(), 600U);

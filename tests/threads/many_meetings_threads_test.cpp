@@ -45,7 +45,7 @@ struct Points_of_one_thread {
 /// @param computed  every third object has positions that one thread alone may read
 std::vector<Frame> frames_of_groups(Detector_options options, std::size_t threads, bool computed = false) {
   options.mode = Mode::particles;
-  options.exact.threads = threads;
+  options.threads = threads;
   auto owned = groups_of_bodies();
   Detector<> detector(options);
   for (std::size_t i = 0; i < owned.size(); ++i) {
@@ -98,7 +98,7 @@ TEST(Many_bodies_by_meetings, the_error_of_a_frame_does_not_depend_on_threads) {
   std::vector<std::string> messages;
   for (const std::size_t threads : {1, 2, 5}) {
     auto owned = groups_of_bodies();
-    Detector<> detector({.mode = Mode::particles, .exact = {.threads = threads}});
+    Detector<> detector({.mode = Mode::particles, .threads = threads});
     for (const auto& mesh : owned) detector.add(std::as_const(mesh));
     const Frame before = detector.detect();
     const auto whole = owned;

@@ -17,7 +17,7 @@ std::deque<Surface_mesh> two_fine_spheres() { return {sphere(40), sphere(40, 1, 
 /// Two spheres that are pushed through each other, with enough particles and faces for several threads.
 std::vector<Frame> frames_of_spheres(Detector_options options, std::size_t threads) {
   std::deque<Surface_mesh> scene = two_fine_spheres();
-  options.exact.threads = threads;
+  options.threads = threads;
   Lbg_options lbg;
   lbg.threads = threads;
   Detector<> detector(options, Lbg{.options = lbg});
@@ -61,7 +61,7 @@ TEST(Particle_threads, the_error_of_a_frame_does_not_depend_on_their_number) {
   std::vector<std::string> messages;
   for (const std::size_t threads : {1, 2, 3, 5}) {
     std::deque<Surface_mesh> scene = two_fine_spheres();
-    Detector<> detector({.mode = Mode::particles, .particles = 400, .meetings = 0, .exact = {.threads = threads}});
+    Detector<> detector({.mode = Mode::particles, .particles = 400, .meetings = 0, .threads = threads});
     for (const auto& mesh : scene) detector.add(std::as_const(mesh));
     detector.detect();
     // The particles themselves are read first, so only their neighbours are broken, of all particles.

@@ -15,8 +15,7 @@ namespace {
 /// What a thread does on its own: a few frames of one mode, with several threads inside.
 std::vector<Frame> frames_of(Mode mode) {
   std::deque<Surface_mesh> scene{sphere(12), potato(10, 2)};
-  Detector<> detector(
-      {.mode = mode, .particles = finds_all(mode) ? 0U : 12U, .contact_points = true, .exact = {.threads = 2}});
+  Detector<> detector({.mode = mode, .particles = finds_all(mode) ? 0U : 12U, .contact_points = true, .threads = 2});
   for (auto& mesh : scene) detector.add(mesh);
   std::vector<Frame> frames;
   for (int frame = 0; frame < 3; ++frame) {
@@ -49,7 +48,7 @@ TEST(Separate_detectors, may_read_one_mesh_side_by_side) {
   std::vector<std::thread> threads;
   for (auto& pairs : found)
     threads.emplace_back([&] {
-      Detector<> detector({.exact = {.threads = 2}});
+      Detector<> detector({.threads = 2});
       detector.add(a);
       detector.add(b);
       pairs = detector.detect().face_pairs;

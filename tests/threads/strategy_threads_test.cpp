@@ -57,7 +57,7 @@ struct Halves {
 class Strategy_threads : public testing::TestWithParam<Mode> {
  protected:
   Detector<Halves> detector(const Halves& strategy, std::size_t threads) {
-    Detector<Halves> result({.mode = GetParam(), .particles = 2, .exact = {.threads = threads}}, strategy);
+    Detector<Halves> result({.mode = GetParam(), .particles = 2, .threads = threads}, strategy);
     for (const auto& mesh : scene_) result.add(std::as_const(mesh));
     return result;
   }

@@ -23,7 +23,7 @@ namespace lodestone {
 
 /// Which method answers.
 enum class Mode {
-  particles,  ///< one particle per region; may miss a collision, never invents one
+  particles,  ///< one particle per region; may miss a collision, reports only true ones
   senin,      ///< the predecessor: particles scattered over the surface, no regions
   exact,      ///< a tree of volumes over the faces: finds what checking every face against every other would
   certified,  ///< as exact, but objects whose motion is bounded are read only where they are near others
@@ -38,7 +38,7 @@ constexpr std::string_view name_of(Mode mode) {
 /// Whether a mode finds what checking every face against every other would.
 constexpr bool finds_all(Mode mode) { return mode == Mode::exact || mode == Mode::certified; }
 
-/// What the modes `exact` and `certified` are asked; `threads` holds for all modes, `tree` also for meetings.
+/// What the modes `exact` and `certified` are asked.
 struct Exact_options {
   double tolerance = 0;         ///< report face pairs nearer than this, in units of the coordinates; 0: that intersect.
                                 ///< Between two objects. A frame tells apart what is near and what collides, which can
@@ -51,12 +51,9 @@ struct Exact_options {
   bool parting = false;         ///< also give a translation that parts two objects which collide, or of which one lies
                                 ///< inside the other; tells containment too
   bool patches = false;         ///< also group the contacts of a pair into contact patches; not with yes_no
-  std::size_t threads = 1;      ///< all modes: at most so many; 0: as many as the machine has. Results do not depend on
-                                ///< it. For builds and for frames; LBG has its own option
-  bool throw_if_broken = false;   ///< mode `certified`: a broken bound is a Broken_bound, in place of an exact pass;
-                                  ///< all that is read is compared with what was promised
-  double loosest = 2;             ///< rebuild an object's tree when its leaves are looser by this factor; > 1
-  Region_tree_options tree = {};  ///< of an object's tree; also of the one that meetings search
+  bool throw_if_broken = false;  ///< mode `certified`: a broken bound is a Broken_bound, in place of an exact pass;
+                                 ///< all that is read is compared with what was promised
+  double loosest = 2;            ///< rebuild an object's tree when its leaves are looser by this factor; > 1
 };
 
 /// Whether contacts may be apart.
@@ -73,8 +70,10 @@ struct Detector_options {
   /// build: all vertices are then in region 0. In the others the particles of an object; 0: as many as the rule of
   /// `particle_count` asks for.
   std::size_t particles = 0;
-  std::size_t least_particles = 12;            ///< but at least so many; 1: the rule alone, which can ask for very few
-  Particle_count_options particle_count = {};  ///< the rule; mode `exact` has none
+  /// But at least so many, and no more than `Particle_count_options::most_particles`; >= 1; 1: the rule alone, which
+  /// can ask for very few. Not in the modes `exact` and `certified`.
+  std::size_t least_particles = 12;
+  Particle_count_options particle_count = {};  ///< the rule; the modes `exact` and `certified` have none
   Partition_options partition = {};            ///< of the division into regions
   /// Mode `particles`: most pairs of particles of two objects that walk towards each other in a frame, nearest first,
   /// past the borders of their regions. What is around the place where they meet is checked, and the next frame begins
@@ -106,7 +105,11 @@ struct Detector_options {
   /// Mode `particles`: repartition when a region exceeds so many times A*; > 0; infinity: never. Published: 1.
   double growth = 1.25;
   Senin_options senin = {};  ///< of mode `senin`
-  Exact_options exact = {};  ///< of the modes `exact` and `certified`; `threads` of all, `tree` also of meetings
+  Exact_options exact = {};  ///< of the modes `exact` and `certified`
+  /// At most so many; 0: as many as the machine has. Results do not depend on it. For builds and for frames, and for a
+  /// strategy whose `options.threads`, such as that of Lbg, is 1.
+  std::size_t threads = 1;
+  Region_tree_options tree = {};  ///< of an object's tree; also of the one that meetings search
 };
 
 /// What one object has of its own.

@@ -324,7 +324,7 @@ void Exact_objects<Volume>::build(std::span<const Object_id> ids, std::span<cons
   std::vector<std::size_t> faces;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     Object& object = *objects_[ids[i]];
-    if (region_count(object) == 0 && object.mend(coordinates[i], options_.exact.tree, workers_)) continue;
+    if (region_count(object) == 0 && object.mend(coordinates[i], options_.tree, workers_)) continue;
     check_finite(coordinates[i], object.title());
     builds.push_back({&object, coordinates[i]});
     faces.push_back(object.corners().size());
@@ -340,7 +340,7 @@ void Exact_objects<Volume>::build(std::span<const Object_id> ids, std::span<cons
   side_by_side(
       faces, workers_,
       [&](std::size_t i, Workers& workers) {
-        builds[i].object->build(std::move(builds[i].regions), builds[i].coordinates, options_.exact.tree, workers);
+        builds[i].object->build(std::move(builds[i].regions), builds[i].coordinates, options_.tree, workers);
       },
       shared_well * workers_.count());
   for (const auto& build : builds) build.object->finish();

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "lodestone/detection/detector_options.h"
 #include "lodestone/detection/exact_object.h"
@@ -42,18 +43,21 @@ Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, cons
 /// alone tell that all faces are triangles. Else O(V + F), and what an Overlap_search takes
 /// for the faces where the boxes overlap; if it gives up, what trees of these faces take, which are thrown away.
 ///
+/// @param points_a, points_b  vertex point maps: where the vertices are
 /// @return none: the detector has to answer. So it is if `can_answer_at_once` is false, and for meshes that a detector
 ///         refuses, with the reason
 /// @throws Bad_argument  an option out of range
-template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b>
-std::optional<Frame> frame_at_once(const Mesh_a& a, const Mesh_b& b, const Detector_options& options) {
+template <Triangle_mesh Mesh_a, Vertex_point_map<Mesh_a> Points_a, Triangle_mesh Mesh_b,
+          Vertex_point_map<Mesh_b> Points_b>
+std::optional<Frame> frame_at_once(const Mesh_a& a, Points_a points_a, const Mesh_b& b, Points_b points_b,
+                                   const Detector_options& options) {
   if (!can_answer_at_once(options) || static_cast<const void*>(&a) == static_cast<const void*>(&b)) return std::nullopt;
   Overlapping_surfaces surfaces;
   bool usable = false;
   double reading = 0;
   timed(reading, [&] {
-    Box_reader<Mesh_a, Own_points<Mesh_a>> reader_a(a, CGAL::get_const_property_map(CGAL::vertex_point, a));
-    Box_reader<Mesh_b, Own_points<Mesh_b>> reader_b(b, CGAL::get_const_property_map(CGAL::vertex_point, b));
+    Box_reader<Mesh_a, Points_a> reader_a(a, std::move(points_a));
+    Box_reader<Mesh_b, Points_b> reader_b(b, std::move(points_b));
     if (!reader_a.read_positions() || !reader_b.read_positions()) return;
     surfaces.box_a = reader_a.box(), surfaces.box_b = reader_b.box();
     const Box overlap = surfaces.box_a.intersection(surfaces.box_b);
@@ -65,24 +69,33 @@ std::optional<Frame> frame_at_once(const Mesh_a& a, const Mesh_b& b, const Detec
   return frame;
 }
 
+/// The same where the vertices are at the meshes' own points.
+template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b>
+std::optional<Frame> frame_at_once(const Mesh_a& a, const Mesh_b& b, const Detector_options& options) {
+  return frame_at_once(a, Own_points<Mesh_a>(CGAL::get_const_property_map(CGAL::vertex_point, a)), b,
+                       Own_points<Mesh_b>(CGAL::get_const_property_map(CGAL::vertex_point, b)), options);
+}
+
 /// The first frame of a Detector to which one mesh has been added, with `Exact_options::self_collision`: without
 /// regions, and with a tree that is thrown away. It has the same contacts, points, normals and patches; where the
 /// number of contacts is limited and regions are asked for, others may be listed.
 ///
 /// O(F log F).
 ///
+/// @param points         a vertex point map: where the vertices are
 /// @param file_vertex    see `Object_options::file_vertex`
 /// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite
 /// @throws Bad_argument  an option out of range, another mode than `exact` or `certified`; `file_vertex` does not have
 ///                       one entry per vertex
-template <Triangle_mesh Mesh>
-Frame self_frame_at_once(const Mesh& mesh, Detector_options options, std::span<const std::uint32_t> file_vertex = {}) {
+template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
+Frame self_frame_at_once(const Mesh& mesh, Points points, Detector_options options,
+                         std::span<const std::uint32_t> file_vertex = {}) {
   options.exact.self_collision = true;
   check(options);
   double reading = 0;
   std::optional<Mesh_numbering<Mesh>> numbering;
   std::vector<Corners> joined;
-  Coordinate_reader<Mesh, Own_points<Mesh>> reader(CGAL::get_const_property_map(CGAL::vertex_point, mesh));
+  Coordinate_reader<Mesh, Points> reader(std::move(points));
   Coordinates positions;
   timed(reading, [&] {
     numbering.emplace(mesh);
@@ -93,6 +106,14 @@ Frame self_frame_at_once(const Mesh& mesh, Detector_options options, std::span<c
   Frame frame = self_frame(joined.empty() ? std::span(numbering->corners()) : joined, positions, options);
   frame.statistics.seconds.build += reading;
   return frame;
+}
+
+/// The same where the vertices are at the mesh's own points.
+template <Triangle_mesh Mesh>
+Frame self_frame_at_once(const Mesh& mesh, const Detector_options& options,
+                         std::span<const std::uint32_t> file_vertex = {}) {
+  return self_frame_at_once(mesh, Own_points<Mesh>(CGAL::get_const_property_map(CGAL::vertex_point, mesh)), options,
+                            file_vertex);
 }
 
 }  // namespace lodestone
