@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "lodestone/mesh/errors.h"
-
 namespace lodestone {
 
 Collisions collisions_of(Frame frame) {
@@ -20,10 +18,6 @@ Collisions collisions_of(Frame frame) {
           .patches = std::move(frame.patches),
           .unfinished = frame.unfinished(),
           .statistics = frame.statistics};
-}
-
-void check_not_twice(const void* a, const void* b) {
-  if (a == b) throw Bad_argument("one mesh is given twice; find_self_collisions finds what it does to itself");
 }
 
 template std::optional<Frame> frame_at_once(const Surface_mesh&, Own_points<Surface_mesh>, const Surface_mesh&,

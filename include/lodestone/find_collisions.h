@@ -33,8 +33,6 @@ struct Collisions {
 /// @cond  helpers
 /// What a frame says about its only pair.
 Collisions collisions_of(Frame frame);
-/// @throws Bad_argument  the addresses are the same
-void check_not_twice(const void* a, const void* b);
 /// @endcond
 
 /// Finds collisions between two meshes, which may be of different types, with one call.
@@ -65,10 +63,15 @@ Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_opti
   if (auto frame = frame_at_once(a, vertex_points(a, np_a), b, vertex_points(b, np_b), options))
     return collisions_of(std::move(*frame));
   using Default = CGAL::parameters::Default_named_parameters;
-  if constexpr (std::same_as<Parameters_a, Default> && std::same_as<Parameters_b, Default>) check_not_twice(&a, &b);
+  constexpr bool own_points = std::same_as<Parameters_a, Default> && std::same_as<Parameters_b, Default>;
   Detector detector(options);
-  const Object_id first = detector.add(a, vertex_points(a, np_a), {.name = "the first mesh"});
-  const Object_id second = detector.add(b, vertex_points(b, np_b), {.name = "the second mesh"});
+  const auto add = [&](const auto& mesh, const auto& np, const char* name) {
+    if constexpr (own_points)
+      return detector.add(mesh, {.name = name});
+    else
+      return detector.add(mesh, vertex_points(mesh, np), {.name = name});
+  };
+  const Object_id first = add(a, np_a, "the first mesh"), second = add(b, np_b, "the second mesh");
   return collisions_of(finds_all(options.mode) ? detector.detect(first, second) : detector.detect());
 }
 

@@ -132,9 +132,9 @@ void note_open_surfaces(const Scene& scene) {
 }
 
 /// Mode `certified` computes few positions; what is written or compared as a whole needs all of them.
-void note_computed_positions(const Detect_run& scene_run, const Detect_command& command) {
+void print_computed_positions(const Detect_run& scene_run, const Detect_command& command) {
   if (scene_run.computes_positions() && (command.truth || !command.html.empty() || !command.paraview.empty()))
-    note("--html, --paraview and --truth need all positions: all objects are also posed as a whole, outside the times");
+    fmt::print("--html, --paraview and --truth: all objects were also posed as a whole, outside the times\n");
 }
 
 /// What the user reads on the terminal.
@@ -144,10 +144,10 @@ void print_results(Detect_run& scene_run, const Detect_command& command) {
   note_lengths(scene_run.scene(), is_scene_file(command.inputs));
   note_single_object(scene_run.scene(), command);
   note_unquoted_pattern(command);
-  note_computed_positions(scene_run, command);
   note_objects(scene_run);
   if (command.options.exact.containment || command.options.exact.parting) note_open_surfaces(scene_run.scene());
   scene_run.print();
+  print_computed_positions(scene_run, command);
   if (!command.out.empty()) fmt::print("results: {}\n", printable(command.out.string()));
   if (scene_run.page() != nullptr) fmt::print("{}", scene_run.page()->summary());
   if (scene_run.paraview() != nullptr) fmt::print("ParaView: {}\n", printable(command.paraview.string()));

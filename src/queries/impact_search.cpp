@@ -2,6 +2,7 @@
 #include "lodestone/queries/impact_search.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <compare>
@@ -17,6 +18,7 @@
 #include "lodestone/triangles/moving_box.h"
 #include "lodestone/triangles/triangle_distance.h"
 #include "lodestone/volumes/to_box.h"
+#include "queries/lowest_contact.h"
 
 namespace lodestone {
 
@@ -114,9 +116,35 @@ class Earliest {
   std::optional<Gap> gap_;  ///< closes at the time of the impact
 };
 
-/// Whether two faces have a corner in common.
-bool share_vertex(const Corners& a, const Corners& b) {
+/// Vertices that several faces have in common.
+using Shared_vertices = boost::container::static_vector<std::uint32_t, 3>;
+
+/// Whether two lists of vertices, such as the corners of two faces, have one in common.
+template <class Vertices>
+bool share_vertex(const Vertices& a, const Vertices& b) {
   return std::ranges::any_of(a, [&](std::uint32_t vertex) { return std::ranges::count(b, vertex) > 0; });
+}
+
+/// Per node, the vertices that all faces below it have. O(V + F).
+std::vector<Shared_vertices> vertices_of_all_faces(const Tree_layout& layout) {
+  std::vector<Shared_vertices> shared(layout.node_count());
+  const auto keep = [](Shared_vertices& vertices, const auto& others) {
+    const auto is_other = [&](std::uint32_t vertex) { return std::ranges::count(others, vertex) == 0; };
+    vertices.erase(std::ranges::remove_if(vertices, is_other).begin(), vertices.end());
+  };
+  for (auto n = static_cast<std::uint32_t>(shared.size()); n-- > 0;) {
+    const auto& node = layout.node(n);
+    if (node.second_child != 0) {
+      shared[n] = shared[n + 1];
+      keep(shared[n], shared[node.second_child]);
+      continue;
+    }
+    const auto vertices = layout.vertices(node.leaf);
+    const auto corners = layout.corners(node.leaf);
+    for (const auto corner : corners.front()) shared[n].push_back(vertices[corner]);
+    for (const auto& [p, q, r] : corners) keep(shared[n], std::array{vertices[p], vertices[q], vertices[r]});
+  }
+  return shared;
 }
 
 /// A face of a leaf that moves.
@@ -135,6 +163,11 @@ class Impact_search {
       : a_(surface), b_(surface), is_within_(true), earliest_(latest) {}
 
   std::optional<Impact> run() {
+    if (const auto contact = is_within_ ? lowest_contact_within(a_.start) : lowest_contact(a_.start, b_.start)) {
+      earliest_.offer(contact->faces, moving(a_, contact->a), moving(b_, contact->b), Impact_time());
+      return earliest_.impact();
+    }
+    if (is_within_) shared_vertices_ = vertices_of_all_faces(*a_.start.layout);
     push(root_pair);
     while (!queue_.empty() && queue_.top().bound <= earliest_.latest()) {
       const Node_pair pair = queue_.top().pair;
@@ -170,7 +203,19 @@ class Impact_search {
     return {to_box(view.start.boxes[node]), to_box(view.end.boxes[node])};
   }
 
+  /// The lower face of a contact comes first.
+  static Moving_triangle moving(const Swept_view& view, Leaf_face face) {
+    return {triangle_of(leaf_triangle(view.start.leaf(face.leaf), face.index)),
+            triangle_of(leaf_triangle(view.end.leaf(face.leaf), face.index))};
+  }
+
+  /// Whether each face below one node shares a vertex with each below the other, as around the tip of a cone.
+  bool share_one_vertex(Node_pair pair) const {
+    return is_within_ && share_vertex(shared_vertices_[pair.a], shared_vertices_[pair.b]);
+  }
+
   void push(Node_pair pair) {
+    if (share_one_vertex(pair)) return;
     const double bound = overlap_time_lower_bound(box(a_, pair.a), box(b_, pair.b));
     if (bound <= earliest_.latest()) queue_.push({bound, pair});
   }
@@ -208,12 +253,12 @@ class Impact_search {
     const Leaf_faces at_start = view.start.leaf(leaf), at_end = view.end.leaf(leaf);
     const auto indices = view.start.layout->faces(leaf);
     for (std::size_t i = 0; i < indices.size(); ++i) {
-      const Moving_triangle moving{triangle_of(leaf_triangle(at_start, i)), triangle_of(leaf_triangle(at_end, i))};
-      const Moving_box box = box_around(moving);
+      const Moving_triangle triangle{triangle_of(leaf_triangle(at_start, i)), triangle_of(leaf_triangle(at_end, i))};
+      const Moving_box box = box_around(triangle);
       if (!(overlap_time_lower_bound(box, other) <= earliest_.latest())) continue;
       const auto [p, q, r] = at_start.corners[i];
       const Corners corners{at_start.vertices[p], at_start.vertices[q], at_start.vertices[r]};
-      faces.push_back({indices[i], corners, moving, box});
+      faces.push_back({indices[i], corners, triangle, box});
     }
   }
 
@@ -235,7 +280,8 @@ class Impact_search {
 
   const Swept_view& a_;
   const Swept_view& b_;
-  bool is_within_ = false;  ///< both are the same surface
+  bool is_within_ = false;                        ///< both are the same surface
+  std::vector<Shared_vertices> shared_vertices_;  ///< per node, within one surface
   Earliest earliest_;
   std::priority_queue<Candidate> queue_;
   std::vector<Node_pair> below_;

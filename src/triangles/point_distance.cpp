@@ -36,6 +36,8 @@ struct Region_search {
   Vector a, b, c, ab, ac;
   double product_error, area_error;
   const std::array<std::uint32_t, 3>& vertices;
+  const Point& query;
+  const Triangle_corners& corners;
   Distance_estimate found = {};
 
   void run() {
@@ -63,9 +65,22 @@ struct Region_search {
     found.weights = {weight_b, std::clamp(of_c / all, 0.0, 1 - weight_b)};
   }
 
-  void at_corner(int corner, double weight_b, double weight_c, bool sure) {
+  void at_corner(std::size_t corner, double weight_b, double weight_c, bool sure) {
     found.weights = {weight_b, weight_c};
-    if (sure) found.part = corner_part(vertices[static_cast<std::size_t>(corner)]);
+    if (sure || lies_behind(corner)) found.part = corner_part(vertices[corner]);
+  }
+  /// Whether neither edge leads from a corner towards the query along any axis. The corner is then the nearest point.
+  /// Exact, since only signs are looked at. So it is for a query on the axis of a turned part, where all triangles of a
+  /// cap have the same corner nearest, and products vanish.
+  bool lies_behind(std::size_t corner) const {
+    const double* const at = corners[corner];
+    const auto leads_away = [&](const double* other) {
+      for (int axis = 0; axis < 3; ++axis)
+        if ((other[axis] > at[axis] && query[axis] > at[axis]) || (other[axis] < at[axis] && query[axis] < at[axis]))
+          return false;
+      return true;
+    };
+    return leads_away(corners[(corner + 1) % 3]) && leads_away(corners[(corner + 2) % 3]);
   }
   void on_edge(int from, int to, double weight_b, double weight_c, bool sure) {
     found.weights = {weight_b, weight_c};
@@ -106,7 +121,9 @@ Distance_estimate estimate_distance(const Query_point& query, const Triangle_cor
                        .ac = difference(corners[2], corners[0]),
                        .product_error = 0,
                        .area_error = 0,
-                       .vertices = vertices};
+                       .vertices = vertices,
+                       .query = query.point,
+                       .corners = corners};
   const double m2 = std::max({search.a.squaredNorm(), search.b.squaredNorm(), search.c.squaredNorm()});
   const double s2 = std::max({search.ab.squaredNorm(), search.ac.squaredNorm(), (search.b - search.c).squaredNorm()});
   // Roots, for the product of two small squares can underflow.

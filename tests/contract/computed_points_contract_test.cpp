@@ -28,14 +28,14 @@ std::vector<double> numbers_of(std::size_t count, std::uint64_t seed) {
   return numbers;
 }
 using Vertex_list = std::vector<std::uint32_t>;
-Vertex_list all_of(std::uint32_t vertices) {
+Vertex_list vertices_below(std::uint32_t vertices) {
   Vertex_list list(vertices);
   std::iota(list.begin(), list.end(), 0U);
   return list;
 }
 std::vector<Point> rest_points(std::uint32_t vertices) {
   std::vector<Point> points;
-  for (const auto v : all_of(vertices)) points.emplace_back(std::sin(v), std::cos(v * v), v % 7);
+  for (const auto v : vertices_below(vertices)) points.emplace_back(std::sin(v), std::cos(v * v), v % 7);
   return points;
 }
 
@@ -102,13 +102,15 @@ struct Motion_case {
   explicit Motion_case(std::uint32_t vertices) : motion(make(vertices)) {}
   void pose(unsigned number) { points.set_frame(number); }
 };
-auto still_motion(std::uint32_t vertices) { return deform(rest_points(vertices), {}).computed(all_of(vertices)); }
+auto still_motion(std::uint32_t vertices) {
+  return deform(rest_points(vertices), {}).computed(vertices_below(vertices));
+}
 auto placed_motion(std::uint32_t vertices) {
-  auto motion = deform(rest_points(vertices), all_moves).computed(all_of(vertices));
+  auto motion = deform(rest_points(vertices), all_moves).computed(vertices_below(vertices));
   return held(placed(std::move(motion), {0, -2, 0.1, 3, 1, 0, 0.5, 4, 0, 0, 3, 5}), 100);
 }
 auto file_motion(std::uint32_t vertices) {
-  return read_animation(LODESTONE_DATA "/characters/hand.glb").motion.computed(all_of(vertices));
+  return read_animation(LODESTONE_DATA "/characters/hand.glb").motion.computed(vertices_below(vertices));
 }
 
 /// The bits of 3 V coordinates after `write` has written some of them, and of what lies around them.
@@ -147,14 +149,14 @@ TYPED_TEST(Computed_points_contract, every_function_gives_a_vertex_the_same_bits
     ASSERT_EQ(points.vertex_count(), vertices);
     std::mt19937_64 random(vertices);
     const std::uint32_t last = vertices - 1;
-    auto mixed = all_of(vertices);
+    auto mixed = vertices_below(vertices);
     for (unsigned number = 0; number < 4; ++number) {
       SCOPED_TRACE(testing::Message() << vertices << " vertices, pose " << number);
       model.pose(number);
       std::ranges::shuffle(mixed, random);
       const auto truth = at_once(points);
       const Vertex_list half(mixed.begin(), mixed.begin() + vertices / 2);
-      std::vector<Vertex_list> lists{all_of(vertices), mixed, half, {}, {0}, {last}};
+      std::vector<Vertex_list> lists{vertices_below(vertices), mixed, half, {}, {0}, {last}};
       if (last > 0) lists.push_back({last, 0});
       for_instruction_sets([&] {
         EXPECT_EQ(at_once(points), truth);
@@ -171,10 +173,10 @@ TYPED_TEST(Computed_points_contract, several_threads_read_the_same_bits_and_chan
   const auto& points = model.points;
   const auto truth = at_once(points);
   const std::uint64_t number = points.pose_number();
-  const auto read = [&] { return at_once(points) == truth && as_a_list(points, all_of(200)) == truth; };
+  const auto read = [&] { return at_once(points) == truth && as_a_list(points, vertices_below(200)) == truth; };
   auto one = std::async(std::launch::async, read), other = std::async(std::launch::async, read);
   EXPECT_TRUE(one.get() && other.get());
-  EXPECT_EQ(one_by_one(points, all_of(200)), truth);
+  EXPECT_EQ(one_by_one(points, vertices_below(200)), truth);
   EXPECT_EQ(points.pose_number(), number);
 }
 

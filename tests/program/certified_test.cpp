@@ -100,13 +100,13 @@ TEST_F(Certified_program, says_what_it_has_read) {
   EXPECT_GT(summary["mean_nodes_bounded"], 0);
 }
 
-TEST_F(Certified_program, notes_what_needs_all_positions) {
-  const std::string note = "all objects are also posed as a whole";
+TEST_F(Certified_program, says_what_needs_all_positions) {
+  const std::string line = "all objects were also posed as a whole";
   const auto scene = write_bodies(), paraview = (folder.path() / "paraview").string();
-  EXPECT_EQ(detect(scene, "certified", "plain").err.find(note), std::string::npos);
+  EXPECT_EQ(detect(scene, "certified", "plain").out.find(line), std::string::npos);
   for (const std::vector<std::string>& option : {{"--truth"}, std::vector<std::string>{"--paraview", paraview}}) {
-    EXPECT_NE(detect(scene, "certified", "whole", option).err.find(note), std::string::npos) << option.front();
-    EXPECT_EQ(detect(scene, "exact", "exact", option).err.find(note), std::string::npos) << option.front();
+    EXPECT_NE(detect(scene, "certified", "whole", option).out.find(line), std::string::npos) << option.front();
+    EXPECT_EQ(detect(scene, "exact", "exact", option).out.find(line), std::string::npos) << option.front();
   }
 }
 

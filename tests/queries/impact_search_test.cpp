@@ -169,6 +169,26 @@ TEST(Self_impact, leaves_out_faces_that_share_a_vertex) {
   EXPECT_EQ(found->time, 0);
 }
 
+TEST(Self_impact, of_two_cones_of_one_mesh_is_where_the_tips_meet_or_where_they_cross_at_the_start) {
+  const auto two_cones = [](double gap) {
+    return joined(fan_of_faces(24, {0, 0, gap}, -0.5), fan_of_faces(25, {0.01, 0.02, 0}, 0.5));
+  };
+  const Face_soup apart = two_cones(1), crossing = two_cones(-0.25);
+  const double time = expect_self_impact(Moving_soup(apart, crossing));
+  EXPECT_GT(time, 0.7);
+  EXPECT_LT(time, 0.9);
+  EXPECT_EQ(expect_self_impact(Moving_soup(crossing, apart)), 0);
+  // Faces of one cone share its tip, wherever they go.
+  const Face_soup cone = fan_of_faces(24, {0, 0, 0}, 0.5);
+  EXPECT_EQ(expect_self_impact(Moving_soup(cone, moved(fan_of_faces(24, {0, 0, 0}, -3), 0, 0, 1))), infinity);
+}
+
+TEST(Impact_search, of_two_cones_that_cross_at_the_start_is_the_lowest_pair_there) {
+  const Face_soup a = fan_of_faces(24, {0, 0, -0.25}, -0.5), b = fan_of_faces(25, {0.01, 0.02, 0}, 0.5);
+  EXPECT_EQ(expect_impact(still(a), shifted(b, 0, 0, -3)), 0);
+  EXPECT_EQ(first_impact(still(a).surface(), shifted(b, 0, 0, -3).surface())->faces, true_pairs(a, b).front());
+}
+
 TEST(Self_impact, of_what_moves_as_one_piece_is_none) {
   for (const Surface_mesh& mesh : {icosphere(6), cloth(12, 10), potato(5)}) {
     const Face_soup soup(mesh);

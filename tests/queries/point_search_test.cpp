@@ -186,6 +186,19 @@ TEST(Point_search, from_the_centre_of_a_ball_decides_exactly_between_all_faces) 
   EXPECT_TRUE(expect_nearest({&box}, {0.5, 0.5, 0.5}));
 }
 
+TEST(Point_search, on_the_axis_of_a_disc_names_the_lowest_of_all_faces_around_its_centre) {
+  for (const Point centre : {Point(0, 0, 0), Point(0.1, -0.7, 0.3)})
+    for (const double height : {0.0, 0.2}) {  // flat, and the tip of a cone
+      const Face_soup disc = fan_of_faces(40, centre, height);
+      const Posed_object small(disc, 2), usual(disc, 16);
+      for (const double above : {1e-12, 0.5, 20.0})
+        EXPECT_TRUE(expect_nearest({&small, &usual}, {centre.x(), centre.y(), centre.z() + above}));
+      // Below the tip, the nearest points are inside the faces.
+      expect_nearest({&small, &usual}, {centre.x(), centre.y(), centre.z() - 0.5});
+      expect_nearest({&small, &usual}, {centre.x() + 1e-9, centre.y(), centre.z() + 0.5});
+    }
+}
+
 TEST(Point_search, decides_exactly_between_a_vertex_and_an_edge_that_is_hardly_nearer) {
   std::mt19937_64 random(9);
   const auto vector = [&] {

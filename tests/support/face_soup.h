@@ -46,6 +46,20 @@ struct Face_soup {
   Positions positions() const { return Eigen::Map<const Positions>(coordinates.data(), vertex_count(), 3); }
 };
 
+/// Faces around one vertex, the first: a disc of radius 1, or a cone whose tip is that vertex.
+/// @param height  of the tip above the rim
+inline Face_soup fan_of_faces(std::uint32_t count, const Point& tip, double height) {
+  Face_soup soup;
+  soup.coordinates = {tip.x(), tip.y(), tip.z()};
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    soup.coordinates.insert(soup.coordinates.end(),
+                            {tip.x() + std::cos(angle), tip.y() + std::sin(angle), tip.z() - height});
+    soup.faces.push_back({0, 1 + i, 1 + (i + 1) % count});
+  }
+  return soup;
+}
+
 /// Takes every vertex p to `map(p)`.
 template <class Map>
 void deform(Face_soup& soup, Map map) {

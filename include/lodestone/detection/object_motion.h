@@ -113,6 +113,7 @@ std::optional<Object_impact> earliest_impact(std::span<const std::unique_ptr<con
                                              Broad_phase& broad_phase) {
   std::optional<Object_impact> first;
   for (const auto pair : pairs_to_search(motions, filter, with_itself, broad_phase)) {
+    if (first && first->impact.exact_time == Impact_time()) break;  // nothing is earlier than the start
     const double latest = first ? first->impact.exact_time.high() : 1;
     const auto impact = impact_of(motions, pair, latest);
     if (impact && (!first || impact->exact_time < first->impact.exact_time)) first = {pair, *impact};

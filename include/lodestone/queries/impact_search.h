@@ -48,7 +48,8 @@ struct Impact {
 
 /// The earliest impact of two different objects: no pair of their faces meets before it. None if they never meet while
 /// t goes from 0 to 1. Whether, when and where is decided exactly, as if all numbers were rational: see
-/// `first_impact` of two triangles. Two objects that intersect at the start have an impact at t = 0.
+/// `first_impact` of two triangles. Two objects that intersect at the start have an impact at t = 0, which a search for
+/// contacts finds.
 ///
 /// What meets within one mesh is not looked at: see `first_self_impact`.
 ///
@@ -57,6 +58,8 @@ struct Impact {
 /// meet at one place; more where they run side by side. Where many face pairs meet at exactly the first time, such as
 /// all of a block that falls flat on a floor, each of them takes an exact test of 10 to 60 us. Where block and floor
 /// lie along the axes, nearly all of these tests are saved: a gap between the boxes tells that the pair is not earlier.
+/// Long faces around one vertex that comes first, such as those of a cone's tip, have boxes that all overlap at once:
+/// O(n^2) for n of them on each side.
 ///
 /// @param latest  in [0, 1]; if the first time is later than this, the result is none
 std::optional<Impact> first_impact(const Swept_view& a, const Swept_view& b, double latest = 1);
