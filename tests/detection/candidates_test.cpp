@@ -9,15 +9,16 @@
 namespace lodestone {
 namespace {
 
-/// Every particle pair of two objects that is nearer than mu, nearest first.
+/// Every particle pair of two objects that is nearer than so many mu, nearest first.
 template <class Detector_type>
-std::vector<Candidate_regions> near_particles(const Detector_type& detector, Object_pair pair) {
+std::vector<Candidate_regions> near_particles(const Detector_type& detector, Object_pair pair,
+                                              double distance_in_mu = 1) {
   const Particles &a = detector.object(pair.a).particles(), &b = detector.object(pair.b).particles();
   std::vector<Candidate_regions> near;
   for (Region_index i = 0; i < a.at.size(); ++i)
     for (Region_index j = 0; j < b.at.size(); ++j) {
       const double distance = (a.positions[i] - b.positions[j]).norm();
-      if (distance < std::max(a.collision_distance, b.collision_distance))
+      if (distance < distance_in_mu * std::max(a.collision_distance, b.collision_distance))
         near.push_back({.a = pair.a, .region_a = i, .b = pair.b, .region_b = j, .distance = distance});
     }
   std::ranges::sort(near, {}, [](const auto& c) { return std::tuple(c.distance, c.region_a, c.region_b); });
@@ -61,6 +62,41 @@ TEST(Candidates, listed_are_all_particle_pairs_below_the_collision_distance_in_t
         expect_same(found.candidates, expected);
       }
     }
+}
+
+TEST(Candidates, of_surfaces_with_longer_and_shorter_edges_are_nearer_than_the_longer_ones) {
+  for (const Mode mode : modes) {
+    Owned_meshes scene{sphere(20), sphere(5, 1, {1.9, 0.1, 0.2})};
+    Detector<> detector({.mode = mode, .particles = 40, .meetings = published(mode), .list_candidates = true});
+    add_all(detector, scene);
+    const Frame& found = detector.detect();
+    const double mu[] = {detector.object(0).particles().collision_distance,
+                         detector.object(1).particles().collision_distance};
+    ASSERT_LT(2 * mu[0], mu[1]);
+    const auto expected = near_particles(detector, {0, 1});
+    EXPECT_TRUE(std::ranges::any_of(expected, [&](const auto& pair) { return pair.distance > mu[0]; }));
+    expect_same(found.candidates, expected);
+  }
+}
+
+TEST(Candidates, reach_as_far_as_the_collision_distance_where_objects_feel_each_other_less_far) {
+  for (const Mode mode : modes) {
+    Owned_meshes scene = two_spheres(5);
+    const double far = 20;  // in mu
+    Detector<> detector({.mode = mode,
+                         .particles = 40,
+                         .meetings = published(mode),
+                         .collision_distance = far,
+                         .list_candidates = true});
+    add_all(detector, scene);
+    const Frame& found = detector.detect();
+    const Particles& particles = detector.object(0).particles();
+    ASSERT_LT(particles.effective_radius, 3);
+    ASSERT_GT(far * particles.collision_distance, 3);
+    const auto expected = near_particles(detector, {0, 1}, far);
+    EXPECT_FALSE(expected.empty());
+    expect_same(found.candidates, expected);
+  }
 }
 
 TEST(Candidates, of_the_closest_choice_is_the_nearest_of_each_pair) {

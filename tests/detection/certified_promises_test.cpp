@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Promises in mode certified, kept and broken.
+#include <CGAL/boost/graph/Euler_operations.h>
+
 #include <limits>
 #include <utility>
 
@@ -421,6 +423,48 @@ TEST(Certified, a_promise_that_does_not_fit_is_dropped_with_an_error) {
   shift(a, 100);
   fits.move(100.1);
   EXPECT_FALSE(detector.detect().collides());
+}
+
+TEST(Certified, a_stretch_counts_anew_from_where_the_vertices_are_when_faces_have_changed) {
+  Surface_mesh a = icosphere(12), b = icosphere(12);
+  shift(b, 0, 6);
+  const Stretch_promise stretch;
+  Detector detector({.mode = Mode::certified});
+  detector.add(a), detector.add(std::as_const(b));
+  detector.promise(0, stretch);
+  EXPECT_FALSE(detector.detect().collides());
+  scale(a, 5.5);
+  CGAL::Euler::flip_edge(Surface_mesh::Halfedge_index(0), a);
+  detector.rebuild(0);
+  for (int frame = 0; frame < 3; ++frame) {  // the first makes the bound, and reads everything
+    const Frame& found = detector.detect();
+    EXPECT_TRUE(found.collides()) << frame;
+    EXPECT_EQ(found.statistics.violations, 0U) << frame;
+    shift(a, 0.01);
+    detector.update(0);
+  }
+}
+
+TEST(Certified, a_bound_that_is_made_while_the_mesh_is_not_finite_hides_nothing_of_it_later) {
+  // Only the tip of one body touches the other, and that is what was not finite.
+  Surface_mesh a = icosphere(12), b = icosphere(12);
+  const Surface_mesh::Vertex_index tip(3);
+  const Point spike(a.point(tip).x() * 4, a.point(tip).y() * 4, a.point(tip).z() * 4);
+  a.point(tip) = spike;
+  shift(b, 1.2 * spike.x(), 1.2 * spike.y(), 1.2 * spike.z());
+  const Displacement_promise of_a;  // it does not move
+  Detector detector({.mode = Mode::certified});
+  detector.add(std::as_const(a)), detector.add(std::as_const(b));
+  detector.update(0, Numbered_mesh(icosphere(12)).positions);
+  a.point(tip) = Point(std::numeric_limits<double>::quiet_NaN(), 0, 0);
+  detector.promise(0, of_a);
+  EXPECT_FALSE(detector.detect().collides());
+  a.point(tip) = spike;
+  detector.update(0);
+  for (int frame = 0; frame < 3; ++frame) {
+    shift(b, 0.001);
+    EXPECT_TRUE(detector.detect().collides()) << frame;
+  }
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST(Detector, positions_at_the_end_of_a_motion_are_told_from_those_of_now) {
 TEST(Detector, a_ray_or_point_that_is_refused_is_told_among_many) {
   for (const auto mode : {Mode::exact, Mode::certified}) {
     auto scene = two_spheres(2);
-    Detector<> detector({.mode = mode, .threads = 2});
+    Detector<> detector({.mode = mode, .exact = {.threads = 2}});
     add_all(detector, scene);
     const Stretch_promise rigid(1.0);
     if (mode == Mode::certified) detector.promise(0, rigid);
@@ -238,13 +238,10 @@ TEST(Detector, is_not_called_by_functions_that_it_calls) {
     detector.add(b, Calling_points{&b, &call});
     const std::vector<Face_pair> before = detector.detect().face_pairs;
     EXPECT_FALSE(before.empty());
-    const std::vector<std::function<void()>> calls{[&] { detector.detect(); },
-                                                   [&] { detector.update(0); },
-                                                   [&] { detector.add(a); },
-                                                   [&] { detector.remove(0); },
-                                                   [&] { detector.save(0); },
-                                                   [&] { detector.rebuild(0); },
-                                                   [&] { detector.place(0, Eigen::Isometry3d::Identity()); }};
+    const std::vector<std::function<void()>> calls{
+        [&] { detector.detect(); },  [&] { detector.update(0); }, [&] { detector.add(a); },
+        [&] { detector.remove(0); }, [&] { detector.save(0); },   [&] { detector.rebuild(0); },
+        [&] { detector.place(0, Eigen::Isometry3d::Identity()); }};
     for (const auto& inner : calls) {
       call = inner;
       // Particles read single vertices, in which the calling one need not be; an object that is built is read whole.

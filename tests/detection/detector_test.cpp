@@ -193,6 +193,20 @@ TEST(Detector, particles_stay_where_they_have_walked) {
   EXPECT_LE(moved, second.statistics.moves);
 }
 
+TEST(Detector, a_frame_in_which_no_particle_walks_has_no_iterations) {
+  for (const Mode mode : modes) {
+    auto scene = two_spheres(2.02);
+    const std::size_t meetings = mode == Mode::particles ? 0 : Detector_options().meetings;
+    Detector<> detector({.mode = mode, .particles = 16, .meetings = meetings});
+    add_all(detector, scene);
+    EXPECT_EQ(detector.detect().object_iterations.size(), 2U);
+    shift(scene[1], 9);
+    const Frame& apart = detector.detect();
+    EXPECT_EQ(apart.statistics.iterations, 0U);
+    EXPECT_TRUE(apart.object_iterations.empty());
+  }
+}
+
 /// Frames of a scene that swings to and fro; gives the number of contacts, and of allocations once it is steady.
 std::pair<std::size_t, std::size_t> swing_steadily(const Detector_options& options) {
   auto scene = two_spheres(2.1);
@@ -362,6 +376,14 @@ TEST(Detector, objects_may_have_particles_of_their_own_number) {
   detector.detect();
   EXPECT_EQ(detector.object(0).particles().at.size(), 5U);
   EXPECT_EQ(detector.object(1).particles().at.size(), 9U);
+}
+
+TEST(Detector, scattered_particles_of_objects_of_one_shape_do_not_start_alike) {
+  auto scene = two_spheres(90);
+  Detector<> detector({.mode = Mode::senin, .particles = 20});
+  add_all(detector, scene);
+  EXPECT_TRUE(detector.detect().pairs.empty());
+  EXPECT_NE(detector.object(0).particles().at, detector.object(1).particles().at);
 }
 
 TEST(Detector, objects_may_join_between_frames) {

@@ -232,5 +232,17 @@ TEST(Exact_detector, without_objects_or_with_one_finds_nothing) {
   EXPECT_EQ(expect_exhaustive(frame, {&a, &b}), 1U);
 }
 
+TEST(Exact_detector, a_frame_counts_the_vertices_that_it_has_read_once_and_no_others) {
+  auto a = sphere(8), b = sphere(6, 1, {1.8, 0.1, 0});
+  Exact_detector detector({.exact = {.self_collision = true}});
+  add_all(detector, {&a, &b});
+  const std::size_t of_a = num_vertices(a), of_b = num_vertices(b);
+  EXPECT_EQ(detector.detect().statistics.vertices_read, of_a + of_b);
+  EXPECT_EQ(detector.detect(0, 0).statistics.vertices_read, of_a);
+  EXPECT_EQ(detector.detect(0, 1).statistics.vertices_read, of_a + of_b);
+  detector.closest(0, 1), detector.within(1, 0, 0.1);  // these read them too
+  EXPECT_EQ(detector.detect().statistics.vertices_read, of_a + of_b);
+}
+
 }  // namespace
 }  // namespace lodestone

@@ -61,6 +61,7 @@ TEST(Exact_options, of_the_mode_exact_alone_are_refused_by_the_others) {
     EXPECT_THROW(Detector<>({.mode = mode, .exact = {.containment = true}}), Bad_argument);
     EXPECT_THROW(Detector<>({.mode = mode, .exact = {.parting = true}}), Bad_argument);
     EXPECT_THROW(Detector<>({.mode = mode, .exact = {.patches = true}}), Bad_argument);
+    EXPECT_THROW(Detector<>({.mode = mode, .exact = {.loosest = 2 * Exact_options().loosest}}), Bad_argument);
     EXPECT_NO_THROW(Detector<>({.mode = mode}));
   }
 }

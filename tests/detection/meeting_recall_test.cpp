@@ -146,6 +146,27 @@ TEST(Meeting_recall, a_tiny_budget_leaves_most_collisions_to_walks_and_gives_no_
     }
 }
 
+TEST(Meeting_recall, pairs_whose_particles_walk_do_not_get_the_contacts_of_pairs_that_are_known) {
+  // One of each two spheres changes sides in every fourth frame. So some pairs are found where they were, beside others
+  // whose particles walk.
+  for (const auto query : {Contact_query::first, Contact_query::all})
+    for (const std::size_t budget : {0, 60, 200}) {
+      Owned_meshes scene;
+      for (int i = 0; i < 6; ++i) scene.push_back(sphere(10, 1, {10.0 * (i / 2) + 1.7 * (i % 2), 0, 0.1 * (i % 2)}));
+      auto options = meeting_options(query);
+      options.opening_budget = budget;
+      Detector<> detector(options);
+      add_all(detector, scene);
+      std::size_t found = 0;
+      for (int frame = 0; frame < 12; ++frame) {
+        for (std::size_t pair = 0; pair < 3; ++pair)
+          if (frame % 4 == static_cast<int>(pair)) shift(scene[2 * pair], frame % 8 < 4 ? 3.4 : -3.4);
+        found += expect_true(detector.detect(), scene);
+      }
+      EXPECT_GT(found, 18U) << budget;
+    }
+}
+
 TEST(Meeting_recall, a_shorter_reach_gives_no_false_answer) {
   for (const auto query : {Contact_query::first, Contact_query::all}) {
     auto options = meeting_options(query);

@@ -44,6 +44,18 @@ TEST(Near_contacts, that_intersect_are_those_of_exhaustive_checking) {
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(found.intersects, 1)), spheres.intersecting.size());
 }
 
+TEST(Near_contacts, of_the_last_frame_are_gone_in_the_next) {
+  Spheres spheres;
+  for (const Mode mode : {Mode::exact, Mode::certified}) {
+    Detector<> detector(with_tolerance(mode, Contact_query::all));
+    add_all(detector, {&spheres.a, &spheres.b});
+    EXPECT_FALSE(detector.detect().contact_intersects.empty());
+    shift(spheres.b, 9);
+    EXPECT_TRUE(detector.detect().contact_intersects.empty());
+    shift(spheres.b, -9);
+  }
+}
+
 TEST(Near_contacts, the_first_intersects_if_any_does) {
   Spheres spheres;
   for (const Mode mode : {Mode::exact, Mode::certified}) {

@@ -328,5 +328,37 @@ TEST(Own_displacement, that_is_made_while_positions_are_given_knows_where_the_po
   }
 }
 
+/// Points with a promise of their own that can be replaced by others.
+struct Replaced_points : Promised_points<Stretch_promise> {
+  using Promised_points::Promised_points;
+  std::uint64_t shape = 1;
+
+  std::uint64_t shape_number() const { return shape; }
+  /// Others, so many times as large.
+  void replace(double factor) {
+    for (double& x : now) x *= factor;
+    ++number, ++shape;
+  }
+};
+
+TEST(Own_stretch, of_points_that_are_replaced_counts_from_where_the_new_ones_are_first) {
+  const Surface_mesh a = icosphere(12);
+  Surface_mesh b = icosphere(12);
+  shift(b, 0, 6);
+  Replaced_points points(a);
+  Detector detector({.mode = Mode::certified});
+  detector.add(a, point_map(a, points));
+  detector.add(std::as_const(b));
+  for (const bool large : {false, true, false, true}) {
+    for (int frame = 0; frame < 3; ++frame) {  // the first makes the bound, and reads everything
+      const Frame& found = detector.detect();
+      EXPECT_EQ(found.collides(), large) << frame;
+      EXPECT_EQ(found.statistics.violations, 0U) << frame;
+      points.shift(frame == 1 ? -0.01 : 0.01, 0);
+    }
+    points.replace(large ? 0.2 : 5.5);
+  }
+}
+
 }  // namespace
 }  // namespace lodestone

@@ -367,6 +367,31 @@ TEST(Bounded_search, that_notices_a_broken_bound_poses_all_and_is_right) {
   EXPECT_GT(broken, 10);
 }
 
+TEST(Bounded_search, shows_each_contact_once_where_a_broken_bound_is_noticed_in_the_middle_of_a_visit) {
+  Arm a(long_potato(10, 1), false), b(long_potato(10, 2), false);
+  a.pose(0.4, {0, 0, 0});
+  b.pose(0.8, {1.5, 0.3, 0});
+  const auto truth = exhaustive_face_pairs(a.mesh, b.mesh);
+  int broken = 0;  // visits that began anew after some contacts
+  for (std::uint32_t from = 0; from < a.bound.node_count(); ++from) {
+    const Shrunk_bound lie{a.bound, from};
+    Tree_surface tree = a.tree;
+    Bounded_surface surface(tree, a.points, lie);
+    std::vector<Face_pair> shown;
+    std::size_t before = 0;  // contacts that are shown before the surface is posed as a whole
+    Bounded_search().visit(surface, b.surface, 0, [&](Face_pair contact) {
+      shown.push_back(contact);
+      before += surface.all_posed() ? 0 : 1;
+      return Visit::go_on;
+    });
+    if (surface.violations() == 0) continue;
+    std::ranges::sort(shown);
+    EXPECT_EQ(shown, truth) << from;
+    broken += before > 0 ? 1 : 0;
+  }
+  EXPECT_GT(broken, 10);
+}
+
 TEST(Bounded_surface, compares_what_it_poses_with_the_boxes_that_were_in_use) {
   Arm a(long_potato(20, 1), false);
   a.pose(0.4, {0, 0, 0});

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -205,6 +206,18 @@ TEST(Contact_patches, of_one_object_with_itself_follow_the_definition) {
   EXPECT_GT(patches, 10U);
 }
 
+TEST(Contact_patches, of_faces_that_share_an_edge_which_only_ends_at_a_corner_of_the_other_are_two) {
+  // Both fins run from the corner of the plate to its inside. Their edge, which both go along in the same direction,
+  // stands on that corner.
+  Face_soup soup;
+  soup.coordinates = {0, 0, 0, 4, -6, 0, 4, 6, 0, 1, 0, 2, 1, 1, -2, 1, -1, -2};
+  soup.faces = {{0, 1, 2}, {3, 0, 4}, {3, 0, 5}};
+  const Posed_object object(soup);
+  const Patched found(object, object);
+  EXPECT_EQ(found.faces, (std::vector<Face_pair>{{0, 1}, {0, 2}}));
+  EXPECT_EQ(expect_by_definition(found, soup, soup, true), 2U);
+}
+
 TEST(Contact_patches, of_faces_that_are_only_near_are_linked_within_the_tolerance) {
   // Two humps under a plate; between them the sheet is farther than the tolerance.
   const Face_soup sheet = waves(1, 0.2);
@@ -232,6 +245,18 @@ TEST(Contact_patches, scale_with_powers_of_two) {
     EXPECT_NEAR((scaled.point / factor - patch.point).norm(), 0, 1e-12);
     EXPECT_NEAR(scaled.length / factor, patch.length, 1e-12);
   }
+}
+
+TEST(Contact_patches, of_segments_longer_than_the_largest_double_have_a_point_and_a_normal) {
+  Face_soup plate, blade;
+  plate.coordinates = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
+  blade.coordinates = {-1, -0.9, 0.1, 1, -0.9, 0.1, 0, -0.9, -1};  // from -10/11 to 10/11 where it meets the plate
+  plate.faces = blade.faces = {{0, 1, 2}};
+  const double factor = 1.7e308;
+  const Contact_patch patch = patched(placed(plate, factor), placed(blade, factor)).patches.at(0);
+  EXPECT_EQ(patch.length, std::numeric_limits<double>::infinity());
+  EXPECT_NEAR((patch.point / factor - Eigen::Vector3d(0, -0.9, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR(patch.normal.norm(), 1, 1e-12);
 }
 
 TEST(Contact_patches, of_no_contacts_are_none) {

@@ -246,6 +246,25 @@ TEST(Containment, in_surfaces_far_away_poses_nothing) {
   EXPECT_EQ(outer.surface.vertices_posed() + inner.surface.vertices_posed(), 0U);
 }
 
+TEST(Containment, refuses_a_bounded_surface_with_a_vertex_that_is_not_finite) {
+  Arm outer(long_potato(8, 1), true), inner(pit(), false);
+  outer.pose(0, {0, 0, 0});
+  inner.pose(0, {0, 0, 0});
+  const Aabb where_it_was = inner.bound.box(0);
+  struct Lie {
+    std::size_t nodes;
+    Aabb whole;
+    std::size_t node_count() const { return nodes; }
+    Aabb box(std::uint32_t) const { return whole; }
+  };
+  const Lie lie{inner.layout.node_count(), where_it_was};
+  Tree_surface tree = inner.tree;
+  Bounded_surface surface(tree, inner.points, lie);
+  EXPECT_TRUE(encloses(outer.surface, surface));
+  inner.points.set_joints(std::vector<Eigen::Affine3d>(3, Eigen::Affine3d(Eigen::Scaling(1.7e308))));
+  EXPECT_THROW(encloses(outer.surface, surface), Bad_mesh);
+}
+
 TEST(Containment, is_right_where_a_broken_bound_is_noticed) {
   Arm arm(long_potato(10, 1), false);
   arm.pose(0.4, {0, 0, 0});

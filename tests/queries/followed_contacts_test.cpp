@@ -373,5 +373,28 @@ TEST(Followed_contacts, a_coordinate_that_is_not_finite_is_refused) {
   EXPECT_THROW(search.follow(a.neighbours(), b.neighbours(), {.contacts = {&truth.front(), 1}}, found), Bad_mesh);
 }
 
+TEST(Followed_contacts, leave_nothing_to_the_next_search_where_a_coordinate_was_not_finite) {
+  Followed_object a(sphere(12)), b(moved(sphere(10), 1.3, 0.2, 0.1));
+  const auto truth = true_contacts(a, b);
+  const std::vector<double> finite = a.surface().coordinates();
+  Opening_search search;
+  std::size_t refused = 0;
+  for (const auto& corners : a.surface().soup().faces) {
+    for (const auto corner : corners) a.surface().coordinates()[3 * corner] = not_a_number;
+    a.start_frame(), b.start_frame();
+    search.begin(a.tree(), b.tree(), {.all = true});
+    std::vector<Face_pair> found;
+    try {
+      search.follow(a.neighbours(), b.neighbours(), {.contacts = {&truth.front(), 1}}, found);
+    } catch (const Bad_mesh&) {
+      ++refused;
+    }
+    a.surface().coordinates() = finite;
+    EXPECT_TRUE(followed_from(search, a, b, {}).empty());
+    EXPECT_TRUE(search.compared().empty());
+  }
+  EXPECT_GT(refused, 10U);
+}
+
 }  // namespace
 }  // namespace lodestone

@@ -457,5 +457,47 @@ TEST(Opening_search, surfaces_that_meet_in_a_small_place_are_read_only_around_it
   EXPECT_LT(found.vertices_read, (a.rest().vertex_count() + b.rest().vertex_count()) / 10);
 }
 
+TEST(Opening_search, what_was_read_before_it_begins_does_not_count_against_the_budget) {
+  Opened_object a(icosphere(32)), b(moved(icosphere(32), 1.99, 0.02, 0));
+  Opening_search search;
+  std::size_t enough = 64;
+  const auto request = [&] { return Opening_request{.all = true, .budget = enough}; };
+  while (opened(search, a, b, request()).out_of_budget) enough += enough / 16;
+  const auto truth = opened(search, a, b, request()).found;
+  ASSERT_FALSE(truth.empty());
+  ASSERT_LT(enough, a.tree().vertex_count());
+  // As for another pair of the same frame.
+  a.start_frame(), b.start_frame();
+  a.tree().pose_below(0);
+  search.begin(a.tree(), b.tree(), request(), from_roots);
+  EXPECT_EQ(search.spent(), 0U);
+  std::vector<Face_pair> found;
+  search.open(found);
+  std::ranges::sort(found);
+  EXPECT_EQ(found, truth);
+  EXPECT_FALSE(search.out_of_budget());
+}
+
+TEST(Opening_starts, cover_no_leaves_that_only_earlier_starts_covered) {
+  Opened_object one(icosphere(4)), large(icosphere(12)), small(icosphere(6));
+  const Tree_layout &a = one.tree().layout(), &b = large.tree().layout(), &c = small.tree().layout();
+  const std::vector<Opening_start> first_halves{{{1, 1}, 0}};
+  const std::uint32_t half = c.node(1).end_leaf;
+  ASSERT_LE(c.leaf_count(), b.node(1).end_leaf);
+  Opening_starts starts;
+  for (const bool turned : {false, true}) {
+    const auto begin = [&](const Tree_layout& other) {
+      turned ? starts.begin(other, a, first_halves, large_budget) : starts.begin(a, other, first_halves, large_budget);
+    };
+    const auto covers = [&](std::uint32_t leaf) {
+      return starts.cover(turned ? Leaf_pair{leaf, 0} : Leaf_pair{0, leaf});
+    };
+    begin(b);
+    for (std::uint32_t leaf = 0; leaf < c.leaf_count(); ++leaf) EXPECT_TRUE(covers(leaf));
+    begin(c);
+    for (std::uint32_t leaf = 0; leaf < c.leaf_count(); ++leaf) EXPECT_EQ(covers(leaf), leaf < half) << leaf;
+  }
+}
+
 }  // namespace
 }  // namespace lodestone

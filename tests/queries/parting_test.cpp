@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "support/face_soup.h"
@@ -172,6 +173,24 @@ TEST(Parting, of_objects_apart_is_none) {
   EXPECT_FALSE(parting(Posed_object(ball).object(), Posed_object(moved(ball, 3, 0, 0)).object()));
   const Face_soup hollow = joined(placed(ball, 3), placed(ball, 2));
   EXPECT_FALSE(parting(Posed_object(hollow).object(), Posed_object(ball).object())) << "in a hollow";
+}
+
+TEST(Parting, of_what_lies_inside_finds_the_way_out_through_a_narrow_pit) {
+  // The pit of a ball ends near a small body inside. It leads along no axis, no diagonal, and not along the line
+  // between the middles of both: a second ball, far away, belongs to the outer object.
+  const Eigen::Vector3d pit = Eigen::Vector3d(1, 0.45, 0.2).normalized(), place = -0.5 * pit.unitOrthogonal();
+  Face_soup ball(sphere(80));
+  deform(ball, [&](const Point& p) {
+    const Eigen::Vector3d away = Eigen::Vector3d(p.x(), p.y(), p.z()) - place;
+    if (away.normalized().dot(pit) < std::cos(0.12)) return p;
+    const Eigen::Vector3d end = place + 0.2 * away / away.dot(pit);
+    return Point(end.x(), end.y(), end.z());
+  });
+  const Face_soup outer = joined(ball, moved(icosphere(2), 3, -8, 5));
+  const Face_soup inner = moved(placed(icosphere(2), 0.005), place.x(), place.y(), place.z());
+  const Parting found = expect_parted(inner, outer);
+  EXPECT_LT(found.length, 0.22);
+  EXPECT_GT(found.translation.normalized().dot(pit), 0.99);
 }
 
 }  // namespace

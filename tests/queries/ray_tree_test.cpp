@@ -190,6 +190,21 @@ TEST(Ray_tree, does_not_follow_a_surface_of_other_faces) {
   EXPECT_GT(expect_answers_of_the_surface(tree, rays_at(60, 12)), 20U);
 }
 
+TEST(Ray_tree, does_not_follow_a_surface_of_other_vertices) {
+  const Face_soup connected(icosphere(4));
+  Face_soup loose;  // as many faces in the same places
+  for (std::size_t face = 0; face < connected.faces.size(); ++face) {
+    const std::uint32_t first = loose.vertex_count();
+    loose.faces.push_back({first, first + 1, first + 2});
+    for (const Point& p : connected.triangle(face))
+      loose.coordinates.insert(loose.coordinates.end(), {p.x(), p.y(), p.z()});
+  }
+  const Posed_object ball(connected), other(loose);
+  Ray_tree tree(ball.view());
+  EXPECT_THROW(tree.refit(other.view()), Bad_argument);
+  EXPECT_GT(expect_answers_of_the_surface(tree, rays_at(60, 12)), 20U);
+}
+
 TEST(Ray_tree, gives_the_same_answers_with_every_instruction_set) {
   const Posed_object object{Face_soup(potato(12)), 96};
   const auto rays = rays_at(300, 3);

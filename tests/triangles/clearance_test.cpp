@@ -10,6 +10,7 @@
 #include "support/boxed.h"
 #include "support/exact_point.h"
 #include "support/hard_pairs.h"
+#include "support/special_numbers.h"
 
 namespace lodestone {
 namespace {
@@ -177,6 +178,29 @@ TEST(Clearance, of_triangles_is_the_same_where_only_large_ones_are_needed) {
         EXPECT_LT(clearance(p, q, way, least).length, least) << kind.name;
     }
   EXPECT_GT(in_line, 200);
+}
+
+TEST(Clearance, of_pairs_that_are_apart_across_an_axis_is_none_on_whichever_side_they_are) {
+  const Triangle here{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0.5)};
+  const auto moved_to = [&](const Eigen::Vector3d& by) {
+    Triangle t = here;
+    for (Point& p : t) p = Point(p.x() + by[0], p.y() + by[1], p.z() + by[2]);
+    return t;
+  };
+  const auto turned = [](const Triangle& t) { return Triangle{t[0], t[2], t[1]}; };
+  for (int along = 0; along < 3; ++along)
+    for (int across = 0; across < 3; ++across)
+      for (const double side : {-1.5, 1.5}) {
+        if (across == along) continue;
+        const Triangle other = moved_to(side * Eigen::Vector3d::Unit(across));
+        for (const Triangle& a : {here, turned(here)})
+          for (const Triangle& b : {other, turned(other)})
+            for (const double sense : {-1.0, 1.0}) {
+              const Eigen::Vector3d direction = sense * Eigen::Vector3d::Unit(along);
+              EXPECT_EQ(clearance_of(a, b, direction).length, -infinity) << along << across << side;
+              EXPECT_EQ(clearance(boxed(a).box, boxed(b).box, Way(direction, slack)), -infinity);
+            }
+      }
 }
 
 }  // namespace

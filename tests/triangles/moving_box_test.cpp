@@ -92,5 +92,21 @@ TEST(Moving_box, far_apart_in_size_is_bounded) {
   EXPECT_EQ(overlap_time_lower_bound({point(-large), point(0)}, still), 1 - 0x1p-50);
 }
 
+TEST(Moving_box, that_comes_along_one_axis_when_it_leaves_along_another_overlaps_for_an_instant) {
+  // Both happen at 1/3. The times are quotients of numbers that were rounded, and so may differ.
+  std::mt19937_64 random(1);
+  const auto number = [&] { return std::uniform_real_distribution<double>(1, 2)(random); };
+  const auto box = [](double x, double y) { return Box(Eigen::Vector3d(x, y, 0), Eigen::Vector3d(x, y, 1)); };
+  const Moving_box still{Box(Eigen::Vector3d(-9, -9, 0), Eigen::Vector3d(0, 0, 1)),
+                         Box(Eigen::Vector3d(-9, -9, 0), Eigen::Vector3d(0, 0, 1))};
+  for (int trial = 0; trial < 1000; ++trial) {
+    const double x = number(), y = number();
+    const Moving_box moving{box(x, -y), box(-2 * x, 2 * y)};
+    ASSERT_EQ(first_overlap(moving, still), Rational(1) / 3);
+    expect_bound(moving, still);
+    EXPECT_LT(overlap_time_lower_bound(moving, still), infinity);
+  }
+}
+
 }  // namespace
 }  // namespace lodestone

@@ -251,6 +251,13 @@ TEST(Corners_nearer_than, proves_only_what_is_true_at_any_scale) {
   EXPECT_GT(proven, near / 2);
 }
 
+TEST(Corners_nearer_than, proves_nothing_where_squares_vanish) {
+  // The square of the distance rounds up to the least double; that of the gap is a sum of three that round to zero.
+  const double unit = 0x1p-538, origin[] = {0, 0, 0}, beyond[] = {unit, unit, unit};
+  EXPECT_FALSE(corners_nearer_than({origin, origin, origin}, {beyond, beyond, beyond}, 1.5 * unit));
+  EXPECT_TRUE(corners_nearer_than({origin, origin, origin}, {origin, origin, origin}, 0x1p-400));
+}
+
 TEST(Triangles_nearer_than, is_strict) {
   for (const auto& c : exactly_apart) {
     ASSERT_EQ(exact_squared_distance(as_triangle(c.a), as_triangle(c.b)), square(c.distance)) << c.name;
