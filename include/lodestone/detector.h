@@ -71,7 +71,8 @@ class Detector {
   /// A detector without objects.
   /// @throws Bad_argument  an option out of range, or mode `certified` with other volumes than boxes
   explicit Detector(const Detector_options& options = {}, Strategy strategy = {})
-      : strategy_(std::make_shared<const Strategy>(with_threads(std::move(strategy), options.threads))), detection_(make_detection<Volume>(options)) {
+      : strategy_(std::make_shared<const Strategy>(with_threads(std::move(strategy), options.threads))),
+        detection_(make_detection<Volume>(options)) {
     need_same_containers();
   }
 
@@ -443,9 +444,12 @@ class Detector {
  private:
   using Exact = Exact_detection<Volume>;
 
+  /// A strategy that shares work among threads takes those of the detector, unless it asks for another number than 1.
   static Strategy with_threads(Strategy strategy, std::size_t threads) {
     if constexpr (requires { { strategy.options.threads } -> std::same_as<std::size_t&>; })
       if (strategy.options.threads == 1) strategy.options.threads = threads;
+    if constexpr (requires { { strategy.options.lbg.threads } -> std::same_as<std::size_t&>; })
+      if (strategy.options.lbg.threads == 1) strategy.options.lbg.threads = threads;
     return strategy;
   }
 

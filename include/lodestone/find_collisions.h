@@ -48,12 +48,13 @@ Collisions collisions_of(Frame frame);
 /// Cost O(V + F) to read both and to find the faces in the overlap of their boxes, and O(n log n) for n such faces;
 /// with a Detector O(F log F).
 ///
-/// @param np_a, np_b  `vertex_point_map`: where the vertices are; default: the meshes' own points. With one, both may
-///                    be of the same mesh
+/// @param np_a, np_b  `vertex_point_map`: where the vertices are; default: the meshes' own points. With one for
+///                    either, a and b may be the same mesh
 /// @return contacts as `options.contacts` asks: none, one, or all, up to `most_contacts`
 /// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite, a Surface_mesh with
 ///                       removed elements
-/// @throws Bad_argument  an option out of range, one that the mode does not take, or one mesh given twice
+/// @throws Bad_argument  an option out of range, one that the mode does not take, or one mesh given twice without such
+///                       a map
 template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b, class Parameters_a = CGAL::parameters::Default_named_parameters,
           class Parameters_b = CGAL::parameters::Default_named_parameters>
 Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_options& options = {},

@@ -70,7 +70,7 @@ py::object regions(Python_detector& self, Object_id object) {
 
 py::object particles(Python_detector& self, Object_id object) {
   if (finds_all(self.options().mode))
-    throw Bad_argument("particles needs the mode particles or senin: in the modes exact and certified there are none");
+    throw Bad_argument("particles needs the mode particles or senin; modes exact and certified have no particles");
   return array_of<std::int64_t>(
       self.change([&](auto& detector) { return detector.object(object).particles().at; }));
 }

@@ -10,7 +10,7 @@ namespace lodestone {
 
 namespace {
 
-void require(bool holds, const std::string& requirement) {
+void require(bool holds, const char* requirement) {
   if (!holds) throw Bad_argument(requirement);
 }
 
@@ -20,10 +20,11 @@ struct Mode_option {
   bool is_default;
 };
 
-/// A mode must not ignore silently what only others have.
+/// They would otherwise be ignored silently.
 /// @param modes  that take them
 void refuse(std::initializer_list<Mode_option> options, const char* modes) {
-  for (const auto& [name, is_default] : options) require(is_default, std::string(name) + " needs the mode " + modes);
+  for (const auto& [name, is_default] : options)
+    if (!is_default) throw Bad_argument(std::string(name) + " needs the mode " + modes);
 }
 
 /// Meetings decide without what the published method needs.

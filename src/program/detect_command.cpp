@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "io/files/small_text.h"
 #include "lodestone/io/files/atomic_file.h"
@@ -131,10 +134,14 @@ void note_open_surfaces(const Scene& scene) {
   });
 }
 
-/// Mode `certified` computes few positions; what is written or compared as a whole needs all of them.
+/// Mode `certified` computes only positions that may be near others; these options need all.
 void print_computed_positions(const Detect_run& scene_run, const Detect_command& command) {
-  if (scene_run.computes_positions() && (command.truth || !command.html.empty() || !command.paraview.empty()))
-    fmt::print("--html, --paraview and --truth: all objects were also posed as a whole, outside the times\n");
+  std::vector<std::string_view> options;
+  if (!command.html.empty()) options.emplace_back("--html");
+  if (!command.paraview.empty()) options.emplace_back("--paraview");
+  if (command.truth) options.emplace_back("--truth");
+  if (scene_run.computes_positions() && !options.empty())
+    fmt::print("all objects were also posed as a whole, outside the times, for {}\n", fmt::join(options, ", "));
 }
 
 /// What the user reads on the terminal.

@@ -125,7 +125,7 @@ bool share_vertex(const Vertices& a, const Vertices& b) {
   return std::ranges::any_of(a, [&](std::uint32_t vertex) { return std::ranges::count(b, vertex) > 0; });
 }
 
-/// Per node, the vertices that all faces below it have. O(V + F).
+/// Per node, the vertices that all faces below it have in common. O(F).
 std::vector<Shared_vertices> vertices_of_all_faces(const Tree_layout& layout) {
   std::vector<Shared_vertices> shared(layout.node_count());
   const auto keep = [](Shared_vertices& vertices, const auto& others) {
@@ -203,7 +203,7 @@ class Impact_search {
     return {to_box(view.start.boxes[node]), to_box(view.end.boxes[node])};
   }
 
-  /// The lower face of a contact comes first.
+  /// A face at both ends of the motion.
   static Moving_triangle moving(const Swept_view& view, Leaf_face face) {
     return {triangle_of(leaf_triangle(view.start.leaf(face.leaf), face.index)),
             triangle_of(leaf_triangle(view.end.leaf(face.leaf), face.index))};

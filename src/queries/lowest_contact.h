@@ -20,7 +20,7 @@ struct Lowest_contact {
   Leaf_face a, b;
 };
 
-/// The lowest pair of faces of two surfaces that intersect; none if none do. Exact. Takes as long as a search for all
+/// The lowest of the face pairs of two surfaces that intersect; none if none do. Exact. Costs as much as finding all
 /// contacts.
 /// @param a, b  with boxes
 std::optional<Lowest_contact> lowest_contact(const Layout_view& a, const Layout_view& b);

@@ -15,7 +15,7 @@ namespace lodestone {
 
 namespace {
 
-/// With more than one of so many faces changed, a tree is built anew.
+/// A tree is built anew if more than one in so many of its faces has changed.
 constexpr std::size_t faces_per_changed = 8;
 
 /// A tree is also built anew if finding leaves for new components would take more comparisons than so many per face.

@@ -69,9 +69,9 @@ struct Region_search {
     found.weights = {weight_b, weight_c};
     if (sure || lies_behind(corner)) found.part = corner_part(vertices[corner]);
   }
-  /// Whether neither edge leads from a corner towards the query along any axis. The corner is then the nearest point.
-  /// Exact, since only signs are looked at. So it is for a query on the axis of a turned part, where all triangles of a
-  /// cap have the same corner nearest, and products vanish.
+  /// Whether no edge from the corner leads towards the query along any axis: then the corner is nearest. Exact, since
+  /// only coordinates are compared. Needed above the centre of a disc or cone, where products vanish and all faces have
+  /// the same corner nearest.
   bool lies_behind(std::size_t corner) const {
     const double* const at = corners[corner];
     const auto leads_away = [&](const double* other) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every model of Computed_points guarantees: one truth, whichever function tells it. No list here has a vertex
-// twice: the concept rules that out, and models that write in place would move such a vertex twice.
+// What every model of Computed_points guarantees: each function gives a vertex the same bits. Lists have no vertex
+// twice, as the concept demands.
 #include "lodestone/mesh/computed_points.h"
 
 #include <bit>
@@ -196,24 +196,32 @@ TYPED_TEST(Computed_points_contract, a_new_pose_has_a_greater_number_and_its_own
   EXPECT_TRUE(stands || (seen[0] != seen[1] && seen[1] != seen[2]));
 }
 
-TYPED_TEST(Computed_points_contract, a_pose_that_is_refused_changes_nothing_and_an_assignment_changes_both_numbers) {
-  TypeParam model(65), other(65);
-  model.pose(1);
-  const auto before = at_once(model.points);
-  const auto number = model.points.pose_number();
-  if constexpr (requires { model.pose_badly(); }) {
+TYPED_TEST(Computed_points_contract, a_pose_that_is_refused_changes_nothing) {
+  if constexpr (requires(TypeParam & model) { model.pose_badly(); }) {
+    TypeParam model(65);
+    model.pose(1);
+    const auto before = at_once(model.points);
+    const auto number = model.points.pose_number();
     EXPECT_THROW(model.pose_badly(), Bad_argument);
     EXPECT_EQ(at_once(model.points), before);
     EXPECT_EQ(model.points.pose_number(), number);
+  } else {
+    GTEST_SKIP() << "a motion whose frame is refused is in no pose";
   }
-  if constexpr (requires { model.points.shape_number(); }) {  // motions and sources have none
-    const auto shape = model.points.shape_number();
-    other.pose(2);
+}
+
+TYPED_TEST(Computed_points_contract, an_assignment_raises_both_numbers) {
+  if constexpr (requires(TypeParam & model) { model.points.shape_number(); }) {
+    TypeParam model(65), other(65);
+    model.pose(1), other.pose(2);
+    const auto number = model.points.pose_number(), shape = model.points.shape_number();
     const auto assigned = at_once(other.points);
     model.points = std::move(other.points);
     EXPECT_EQ(at_once(model.points), assigned);
     EXPECT_GT(model.points.pose_number(), number);
     EXPECT_GT(model.points.shape_number(), shape);
+  } else {
+    GTEST_SKIP() << "motions and sources are not assigned to";
   }
 }
 

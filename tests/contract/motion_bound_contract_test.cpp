@@ -21,7 +21,7 @@ namespace lodestone {
 namespace {
 
 /// A body writes the positions of a pose to its object, as they are computed, and promises something about them. An
-/// affine map takes the rest to the pose, so that bodies of all models are alike; pose 0 is the rest.
+/// affine map takes the rest to the pose, so that bodies of all models but the last are alike; pose 0 is the rest.
 struct Affine_body {
   Given_object& object;
   void pose(const Eigen::Affine3d& map, unsigned /*number*/) {
@@ -134,7 +134,7 @@ struct Motion_body : Affine_body {
   auto bound(const Bounded_object& of) const { return motion->bound(of); }
 };
 
-/// How many vertices are outside the box of a node, along axes that are not open. Half-open ones hold nothing.
+/// How many coordinates lie outside the box of a node that has them. An axis must be finite, or open on both sides.
 std::size_t lost(const std::vector<Aabb>& boxes, const Given_object& object) {
   std::size_t count = 0;
   for (std::uint32_t node = 0; node < boxes.size(); ++node)
@@ -202,7 +202,7 @@ TYPED_TEST(Motion_bound_contract, boxes_hold_every_vertex_in_every_pose_and_chan
         ASSERT_EQ(lost(boxes_of(bound), object), 0U);
       }
     }
-  EXPECT_LT(least, 9);  // a box around everything tells nothing
+  EXPECT_LT(least, 9);  // at rest, of the tightest body: a box around everything would tell nothing
 }
 
 TYPED_TEST(Motion_bound_contract, an_axis_that_overflows_is_open_and_positions_that_do_are_refused) {
@@ -215,8 +215,8 @@ TYPED_TEST(Motion_bound_contract, an_axis_that_overflows_is_open_and_positions_t
   EXPECT_THROW(object.surface(bound)->settle(), Bad_mesh);
 }
 
-/// A vertex leaves all boxes where two bodies overlap. No bound makes the box of its leaf around this one: a wrong box
-/// that nobody looks into goes unnoticed.
+/// A vertex leaves its boxes where two bodies overlap, so it is read and noticed. A wrong box where nothing is read
+/// goes unnoticed.
 TYPED_TEST(Motion_bound_contract, a_vertex_outside_is_noticed_where_it_is_read_and_answers_are_those_of_mode_exact) {
   Surface_mesh a = potato(20, 1), b = potato(12, 2);
   shift(b, 3.1);

@@ -74,7 +74,7 @@ TEST(Detector, positions_at_the_end_of_a_motion_are_told_from_those_of_now) {
 TEST(Detector, a_ray_or_point_that_is_refused_is_told_among_many) {
   for (const auto mode : {Mode::exact, Mode::certified}) {
     auto scene = two_spheres(2);
-    Detector<> detector({.mode = mode, .exact = {.threads = 2}});
+    Detector<> detector({.mode = mode, .threads = 2});
     add_all(detector, scene);
     const Stretch_promise rigid(1.0);
     if (mode == Mode::certified) detector.promise(0, rigid);

@@ -166,6 +166,16 @@ TEST_F(Snippets, of_one_call) {
   EXPECT_GT(responses, 0U);
 }
 
+TEST_F(Snippets, of_one_call_with_points_beside_the_mesh) {
+  const auto points = get(CGAL::vertex_point, a);
+  const auto moved_points = get(CGAL::dynamic_vertex_property_t<lodestone::Point>(), a);
+  for (const auto v : a.vertices())
+    put(moved_points, v, lodestone::Point(a.point(v).x() + 0.5, a.point(v).y(), a.point(v).z() + 0.25));
+  const auto moved = lodestone::find_collisions(a, a, {}, CGAL::parameters::vertex_point_map(points),
+                                                CGAL::parameters::vertex_point_map(moved_points));
+  EXPECT_GT(moved.faces.size(), 5U);
+}
+
 TEST_F(Snippets, of_first_impact) {
   const Surface_mesh sheet = lodestone::grid(5, 5);
   Surface_mesh ball = lodestone::sphere(3, 0.25, {2, 2, 1});

@@ -12,6 +12,7 @@
 #include "support/exact_point.h"
 #include "support/face_soup.h"
 #include "support/instruction_sets.h"
+#include "triangles/point_distance.h"
 
 namespace lodestone {
 namespace {
@@ -196,6 +197,26 @@ TEST(Point_search, on_the_axis_of_a_disc_names_the_lowest_of_all_faces_around_it
       // Below the tip, the nearest points are inside the faces.
       expect_nearest({&small, &usual}, {centre.x(), centre.y(), centre.z() - 0.5});
       expect_nearest({&small, &usual}, {centre.x() + 1e-9, centre.y(), centre.z() + 0.5});
+    }
+}
+
+TEST(Point_search, knows_without_exact_numbers_that_the_centre_of_a_disc_is_nearest_to_its_axis) {
+  for (const double height : {0.0, 0.2})
+    for (const int exponent : {-600, 0, 600}) {
+      Face_soup disc = fan_of_faces(9, {0.1, -0.7, 0.3}, height);
+      for (double& x : disc.coordinates) x = std::ldexp(x, exponent);
+      const double above = std::ldexp(1.0, exponent);
+      const auto low = std::ranges::min(disc.coordinates), high = std::ranges::max(disc.coordinates);
+      const double lows[]{low, low, low}, highs[]{high + above, high + above, high + above};
+      const double* const centre = disc.coordinates.data();
+      const Query_point query(Point(centre[0], centre[1], centre[2] + above), lows, highs);
+      for (const Corners& face : disc.faces)
+        for (std::size_t turn = 0; turn < 3; ++turn) {
+          const Corners corners{face[turn], face[(turn + 1) % 3], face[(turn + 2) % 3]};
+          const auto at = [&](std::size_t i) { return centre + 3 * std::size_t{corners[i]}; };
+          const auto found = estimate_distance(query, {at(0), at(1), at(2)}, corners);
+          EXPECT_EQ(found.part, (Nearest_part{0, 0})) << height << ' ' << exponent << ' ' << turn;
+        }
     }
 }
 

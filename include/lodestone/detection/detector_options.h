@@ -70,8 +70,8 @@ struct Detector_options {
   /// build: all vertices are then in region 0. In the others the particles of an object; 0: as many as the rule of
   /// `particle_count` asks for.
   std::size_t particles = 0;
-  /// But at least so many, and no more than `Particle_count_options::most_particles`; >= 1; 1: the rule alone, which
-  /// can ask for very few. Not in the modes `exact` and `certified`.
+  /// Where the rule of `particle_count` decides: at least so many, but never more than its `most_particles`; >= 1.
+  /// 1: the rule alone, which can ask for very few. Not in the modes `exact` and `certified`.
   std::size_t least_particles = 12;
   Particle_count_options particle_count = {};  ///< the rule; the modes `exact` and `certified` have none
   Partition_options partition = {};            ///< of the division into regions
@@ -106,8 +106,8 @@ struct Detector_options {
   double growth = 1.25;
   Senin_options senin = {};  ///< of mode `senin`
   Exact_options exact = {};  ///< of the modes `exact` and `certified`
-  /// At most so many; 0: as many as the machine has. Results do not depend on it. For builds and for frames, and for a
-  /// strategy whose `options.threads`, such as that of Lbg, is 1.
+  /// At most so many; 0: as many as the machine has. Results do not depend on it. For builds, for frames, and for a
+  /// strategy whose own option `threads` is 1, such as that of Lbg.
   std::size_t threads = 1;
   Region_tree_options tree = {};  ///< of an object's tree; also of the one that meetings search
 };

@@ -136,7 +136,9 @@ class Exact_detection final : public Detection {
     return of_refreshed(object, question, parts);
   }
   /// See `Detector::ray_tree`.
-  const Ray_tree& ray_tree(Object_id object) requires std::same_as<Volume, Aabb> {
+  const Ray_tree& ray_tree(Object_id object)
+    requires std::same_as<Volume, Aabb>
+  {
     const Object_id ids[] = {object};
     const Busy busy = refresh(ids);
     objects_.pose_all(ids);
@@ -339,7 +341,8 @@ std::vector<std::optional<Object_hit>> Exact_detection<Volume>::first_hits(std::
     std::vector<Boxed_object> objects;
     for (const auto id : ids) objects.push_back({id, objects_.box(id)});
     hits = first_hits_among(
-        rays, objects, [this](Object_id id, std::span<const Ray> asked) { return first_hits_of_refreshed(id, asked); },
+        rays, objects,
+        [this](Object_id id, std::span<const Ray> asked) { return first_hits_of_refreshed(id, asked); },
         [this](Object_id id, std::uint32_t face) { return surface_triangle(objects_.surface(id), face); });
   });
   return hits;

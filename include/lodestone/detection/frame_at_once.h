@@ -44,8 +44,8 @@ Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, cons
 /// for the faces where the boxes overlap; if it gives up, what trees of these faces take, which are thrown away.
 ///
 /// @param points_a, points_b  vertex point maps: where the vertices are
-/// @return none: the detector has to answer. So it is if `can_answer_at_once` is false, and for meshes that a detector
-///         refuses, with the reason
+/// @return none: the detector has to answer. So it is if `can_answer_at_once` is false, if a and b are the same mesh,
+///         and for meshes that a detector refuses, with the reason
 /// @throws Bad_argument  an option out of range
 template <Triangle_mesh Mesh_a, Vertex_point_map<Mesh_a> Points_a, Triangle_mesh Mesh_b,
           Vertex_point_map<Mesh_b> Points_b>

@@ -48,8 +48,8 @@ struct Impact {
 
 /// The earliest impact of two different objects: no pair of their faces meets before it. None if they never meet while
 /// t goes from 0 to 1. Whether, when and where is decided exactly, as if all numbers were rational: see
-/// `first_impact` of two triangles. Two objects that intersect at the start have an impact at t = 0, which a search for
-/// contacts finds.
+/// `first_impact` of two triangles. Two objects that intersect at the start have an impact at t = 0: a search for all
+/// contacts finds the lowest.
 ///
 /// What meets within one mesh is not looked at: see `first_self_impact`.
 ///
@@ -71,6 +71,7 @@ std::optional<Impact> first_impact(const Swept_view& a, const Swept_view& b, dou
 /// face go to the exact test of two triangles, whose floating-point part mostly tells them apart. O(F log F) on
 /// surfaces of even faces that move little beside their size. Straight ways of a body that turns by half a turn lead
 /// nearly all of its faces through one place, where all pairs of them are tested: O(F^2). Ask about shorter steps.
+/// Nodes all of whose faces share a vertex are not compared.
 ///
 /// @param surface  one object
 /// @param latest   in [0, 1]; if the first time is later than this, the result is none
