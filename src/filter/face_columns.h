@@ -38,11 +38,14 @@ struct Face_columns : Box_columns {
   std::int16_t leaf_low[4];         ///< the leaf's box, as those of faces
   std::int16_t leaf_high[4];
   bool has_leaf_box;
+  std::uint32_t shared[3];  ///< within one mesh only: vertices of the mesh that all faces of the leaf have
+  std::size_t shared_count;
+  bool knows_shared;
 
   bool has_faces() const { return count > 0; }
   void clear() {
     count = 0;
-    has_leaf_box = false;
+    has_leaf_box = knows_shared = false;
   }
 };
 

@@ -276,6 +276,9 @@ TEST(Face_filter, within_one_mesh_keeps_each_intersecting_pair_that_shares_no_ve
       }
     for (const double distance : {0.02, 0.1, 0.5})
       intersecting += expect_pairs_within(Posed_object(crumpled(icosphere(3), distance, 1), leaf_faces));
+    // The tips of two cones pass through each other; all faces of a leaf have a tip in common.
+    const Face_soup cones = joined(fan_of_faces(24, {0, 0, -0.25}, -0.5), fan_of_faces(25, {0.01, 0.02, 0}, 0.5));
+    EXPECT_GT(expect_pairs_within(Posed_object(cones, leaf_faces)), 20U);
   }
   EXPECT_GT(intersecting, 10000U);
 }
