@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -38,8 +39,7 @@ struct Face_columns : Box_columns {
   std::int16_t leaf_low[4];         ///< the leaf's box, as those of faces
   std::int16_t leaf_high[4];
   bool has_leaf_box;
-  std::uint32_t shared[3];  ///< within one mesh only: vertices of the mesh that all faces of the leaf have
-  std::size_t shared_count;
+  std::array<std::uint32_t, 3> shared;  ///< Shared_vertices of the leaf; within one mesh only
   bool knows_shared;
 
   bool has_faces() const { return count > 0; }

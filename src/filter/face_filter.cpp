@@ -8,6 +8,7 @@
 #include "filter/face_filter_kernel.h"
 #include "filter/filter_request.h"
 #include "filter/filter_scratch.h"
+#include "tree/shared_vertices.h"
 
 namespace lodestone {
 
@@ -17,26 +18,13 @@ namespace {
 constexpr std::size_t slot_count = 32;
 constexpr auto no_leaf = std::numeric_limits<std::uint32_t>::max();
 
-/// Finds out which vertices all faces of a leaf have.
-void find_shared(const kernel::Leaf_input& leaf) {
-  Face_columns& faces = *leaf.faces;
-  if (faces.knows_shared) return;
-  faces.knows_shared = true;
-  faces.shared_count = 0;
-  const std::span all(leaf.corners, leaf.face_count);
-  for (const auto corner : all.front())
-    if (std::ranges::all_of(all, [&](const auto& face) { return std::ranges::count(face, corner) > 0; }))
-      faces.shared[faces.shared_count++] = leaf.vertices[corner];
-}
-
-/// Whether each face of one leaf shares a vertex with each of the other, as around the tip of a cone: no pair counts.
-/// Without this, a mesh with n faces around a vertex would take n^2 steps.
-bool share_one_vertex(const kernel::Leaf_input& a, const kernel::Leaf_input& b) {
-  find_shared(a);
-  find_shared(b);
-  const std::span of_b(b.faces->shared, b.faces->shared_count);
-  return std::ranges::any_of(std::span(a.faces->shared, a.faces->shared_count),
-                             [&](std::uint32_t vertex) { return std::ranges::count(of_b, vertex) > 0; });
+/// The vertices that all faces of a leaf have.
+const Shared_vertices& shared_by(const Tree_layout& layout, std::uint32_t leaf, Face_columns& faces) {
+  if (!faces.knows_shared) {
+    faces.shared = shared_vertices(layout, leaf);
+    faces.knows_shared = true;
+  }
+  return faces.shared;
 }
 
 }  // namespace
@@ -114,7 +102,10 @@ std::span<const Face_candidate> Face_filter::face_candidates(std::uint32_t leaf_
   // One tree has its leaves in one side, so that each is read once. The second side is for two leaves of one slot.
   const bool one_side = one_mesh && (leaf_a == leaf_b || leaf_a % slot_count != leaf_b % slot_count);
   auto b = sides_[one_side ? 0 : 1].input(leaf_b);
-  if (one_mesh && share_one_vertex(a, b)) return {};
+  const Tree_layout& layout = *sides_[0].view.layout;
+  // All pairs of such leaves share a vertex. To look at each would take n^2 steps for n faces around one vertex.
+  if (one_mesh && have_one_in_common(shared_by(layout, leaf_a, *a.faces), shared_by(layout, leaf_b, *b.faces)))
+    return {};
   candidates_.resize(std::max(candidates_.size(), a.face_count * b.face_count + most_float_lanes));
   const auto& request = is_too_coarse(*request_, *a.box, *b.box) ? round_alone(a, b) : *request_;
   const std::size_t count = kernel::face_candidates(a, b, request, *scratch_, candidates_.data());

@@ -2,7 +2,6 @@
 #include "lodestone/queries/impact_search.h"
 
 #include <algorithm>
-#include <array>
 #include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <compare>
@@ -19,6 +18,7 @@
 #include "lodestone/triangles/triangle_distance.h"
 #include "lodestone/volumes/to_box.h"
 #include "queries/lowest_contact.h"
+#include "tree/shared_vertices.h"
 
 namespace lodestone {
 
@@ -116,35 +116,9 @@ class Earliest {
   std::optional<Gap> gap_;  ///< closes at the time of the impact
 };
 
-/// Vertices that several faces have in common.
-using Shared_vertices = boost::container::static_vector<std::uint32_t, 3>;
-
-/// Whether two lists of vertices, such as the corners of two faces, have one in common.
-template <class Vertices>
-bool share_vertex(const Vertices& a, const Vertices& b) {
+/// Whether two faces have a corner in common.
+bool share_vertex(const Corners& a, const Corners& b) {
   return std::ranges::any_of(a, [&](std::uint32_t vertex) { return std::ranges::count(b, vertex) > 0; });
-}
-
-/// Per node, the vertices that all faces below it have in common. O(F).
-std::vector<Shared_vertices> vertices_of_all_faces(const Tree_layout& layout) {
-  std::vector<Shared_vertices> shared(layout.node_count());
-  const auto keep = [](Shared_vertices& vertices, const auto& others) {
-    const auto is_other = [&](std::uint32_t vertex) { return std::ranges::count(others, vertex) == 0; };
-    vertices.erase(std::ranges::remove_if(vertices, is_other).begin(), vertices.end());
-  };
-  for (auto n = static_cast<std::uint32_t>(shared.size()); n-- > 0;) {
-    const auto& node = layout.node(n);
-    if (node.second_child != 0) {
-      shared[n] = shared[n + 1];
-      keep(shared[n], shared[node.second_child]);
-      continue;
-    }
-    const auto vertices = layout.vertices(node.leaf);
-    const auto corners = layout.corners(node.leaf);
-    for (const auto corner : corners.front()) shared[n].push_back(vertices[corner]);
-    for (const auto& [p, q, r] : corners) keep(shared[n], std::array{vertices[p], vertices[q], vertices[r]});
-  }
-  return shared;
 }
 
 /// A face of a leaf that moves.
@@ -167,7 +141,7 @@ class Impact_search {
       earliest_.offer(contact->faces, moving(a_, contact->a), moving(b_, contact->b), Impact_time());
       return earliest_.impact();
     }
-    if (is_within_) shared_vertices_ = vertices_of_all_faces(*a_.start.layout);
+    if (is_within_) shared_vertices_ = shared_vertices_of_nodes(*a_.start.layout);
     push(root_pair);
     while (!queue_.empty() && queue_.top().bound <= earliest_.latest()) {
       const Node_pair pair = queue_.top().pair;
@@ -211,7 +185,7 @@ class Impact_search {
 
   /// Whether each face below one node shares a vertex with each below the other, as around the tip of a cone.
   bool share_one_vertex(Node_pair pair) const {
-    return is_within_ && share_vertex(shared_vertices_[pair.a], shared_vertices_[pair.b]);
+    return is_within_ && have_one_in_common(shared_vertices_[pair.a], shared_vertices_[pair.b]);
   }
 
   void push(Node_pair pair) {

@@ -95,6 +95,36 @@ TEST(Detector_options, of_another_mode_are_named_with_the_modes_that_take_them) 
   EXPECT_EQ(refusal({.least_particles = 0}, Mode::particles), "least_particles must be at least 1");
 }
 
+/// Halves a surface, and notes how many threads it may use.
+struct Threaded_halves {
+  static constexpr std::string_view name = "threaded_halves";
+  struct {
+    std::size_t threads = 1;
+  } options;
+  std::size_t* used = nullptr;
+
+  Labelling operator()(const Partition_input<Surface_mesh>& input, std::size_t /*regions*/) const {
+    *used = options.threads;
+    Labelling result{.labels = std::vector<Region_index>(num_vertices(input.surface().graph), 0)};
+    for (std::size_t v = 0; 2 * v < result.labels.size(); ++v) result.labels[v] = 1;
+    return result;
+  }
+};
+
+TEST(Detector_options, threads_are_those_of_a_strategy_that_asks_for_no_other_number) {
+  const auto used_by = [](std::size_t of_detector, std::size_t of_strategy) {
+    std::size_t used = 0;
+    const auto mesh = sphere(4);
+    Detector<Threaded_halves> detector({.particles = 2, .threads = of_detector}, {{of_strategy}, &used});
+    detector.add(mesh);
+    detector.detect();
+    return used;
+  };
+  EXPECT_EQ(used_by(2, 1), 2U);
+  EXPECT_EQ(used_by(2, 3), 3U);
+  EXPECT_EQ(used_by(1, 1), 1U);
+}
+
 TEST(Detector, an_unknown_object_has_neither_state_nor_maps) {
   constexpr auto largest = std::numeric_limits<Object_id>::max();
   Detector<> detector({.mode = Mode::particles});

@@ -378,6 +378,15 @@ def test_regions_and_particles():
     assert regions[particles[3]] == 3 and frame.candidates
 
 
+@pytest.mark.parametrize("mode", ["exact", "certified"])
+def test_particles_are_refused_where_there_are_none(mode):
+    detector = lodestone.Detector(mode=mode, particles=12)
+    detector.add(sphere())
+    detector.detect()
+    with pytest.raises(lodestone.BadArgument, match="^particles needs the mode particles or senin; "):
+        detector.particles(0)
+
+
 @pytest.mark.parametrize("mode", ["exact", "certified", "particles"])
 def test_regions_of_a_skin_are_those_of_the_same_mesh(mode):
     ball = sphere(8)
