@@ -221,7 +221,7 @@ void add_detector(py::module_& module) {
       "  most_contacts     contacts listed per pair of objects: all\n"
       "  threads           at most so many; 0: all of the machine: 1. Results do not depend on it\n"
       "  particles         particles, or regions in the modes 'exact' and 'certified'; 0: as the mode sees fit; in\n"
-      "                    these two none, or 12 with a strategy or a setting of it\n"
+      "                    these two none, or 12 with a strategy, a setting of it or keep_islands\n"
       "  strategy          how surfaces are divided: 'lbg'. It can be a function, see `partition`. Its settings are seed,\n"
       "                    normal_weight, lbg_split, lbg_epsilon, lbg_tolerance and lbg_sample\n"
       "  keep_islands      whether a region may consist of several islands: False\n"

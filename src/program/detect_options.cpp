@@ -72,7 +72,7 @@ void add_mode(CLI::App& app, Detector_options& options) {
          "--particles", options.particles,
          "Particles per object; 0: what the scene says, else the number of objects that can touch it at once, at least "
          "12. Modes exact and certified: regions at the top of its tree; 0: what the scene says, else 12 with a "
-         "strategy or a setting of it, else none")
+         "strategy, a setting of it or --keep-islands, else none")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
       ->capture_default_str();
 }
