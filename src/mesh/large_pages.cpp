@@ -12,7 +12,6 @@ namespace lodestone {
 #ifdef __linux__
 
 void use_large_pages(const void* memory, std::size_t size) noexcept {
-  constexpr std::size_t large_page = std::size_t{1} << 21;
   if (size < 2 * large_page) return;
   const auto begin = reinterpret_cast<std::uintptr_t>(memory);
   const std::uintptr_t first = (begin + large_page - 1) / large_page * large_page;

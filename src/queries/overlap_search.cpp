@@ -6,10 +6,11 @@
 #include <span>
 #include <utility>
 
-#include "lodestone/queries/face_pair_order.h"
+#include "lodestone/mesh/large_pages.h"
 #include "lodestone/triangles/triangle_distance.h"
 #include "lodestone/triangles/triangle_intersection.h"
 #include "lodestone/volumes/to_box.h"
+#include "queries/face_pair_order.h"
 #include "queries/rounded_box_kernel.h"
 
 namespace lodestone {
@@ -114,10 +115,19 @@ bool Overlap_search::search_all(const Faces_in_box& a, const Faces_in_box& b, co
 
 void Overlap_search::Stack::reserve(std::size_t count) {
   if (top_ + count <= capacity_) return;
-  capacity_ = std::max(top_ + count, 2 * capacity_);
-  auto larger = std::make_unique_for_overwrite<Rounded_box[]>(capacity_);
+  std::size_t bytes = sizeof(Rounded_box) * std::max(top_ + count, 2 * capacity_);
+  Release release;
+  if (bytes > large_page) {
+    bytes = (bytes + large_page - 1) / large_page * large_page;
+    release.alignment = std::align_val_t(large_page);
+  }
+  std::unique_ptr<Rounded_box[], Release> larger(static_cast<Rounded_box*>(::operator new(bytes, release.alignment)),
+                                                 release);
+  // Each search is the first to write this memory: to get it in small pages can take longer than all else.
+  use_large_pages(larger.get(), bytes);
   std::copy_n(boxes_.get(), top_, larger.get());
   boxes_ = std::move(larger);
+  capacity_ = bytes / sizeof(Rounded_box);
 }
 
 void Overlap_search::round_in(const Box& frame) {

@@ -357,6 +357,17 @@ TEST(Find_collisions, answers_by_trees_where_boxes_part_little) {
   }
 }
 
+/// So many faces that their boxes lie in large pages.
+TEST(Find_collisions, answers_as_a_detector_does_where_large_meshes_overlap_deeply) {
+  const auto a = sphere(60), b = sphere(60, 1, Point(0.3, 0.01, 0.02));
+  ASSERT_GT(num_faces(a), 25'000U);
+  Detector detector;
+  detector.add(a), detector.add(b);
+  const auto truth = detector.detect(0, 1).face_pairs;
+  EXPECT_GT(truth.size(), 500U);
+  for (int time = 0; time < 2; ++time) EXPECT_EQ(find_collisions(a, b).faces, truth);
+}
+
 TEST(Find_self_collisions, answers_as_a_detector_does) {
   const std::vector<Detector_options> cases{{},
                                             {.contacts = Contact_query::yes_no},

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <new>
 #include <optional>
 #include <span>
 #include <vector>
@@ -61,7 +62,12 @@ class Overlap_search {
     }
 
    private:
-    std::unique_ptr<Rounded_box[]> boxes_;
+    struct Release {
+      Release() : alignment(std::align_val_t(alignof(Rounded_box))) {}
+      std::align_val_t alignment;
+      void operator()(Rounded_box* boxes) const { ::operator delete(boxes, alignment); }
+    };
+    std::unique_ptr<Rounded_box[], Release> boxes_;
     std::size_t top_ = 0, capacity_ = 0;
   };
 
