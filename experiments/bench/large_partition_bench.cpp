@@ -13,6 +13,7 @@
 
 #include "lodestone/io/motion/deformation.h"
 #include "lodestone/io/shapes/shapes.h"
+#include "lodestone/partition/nearest_code_vector.h"
 #include "lodestone/partition/strategies.h"
 
 namespace lodestone {

@@ -65,7 +65,7 @@ Frame overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options
   Frame_builder builder(options);
   builder.start();
   builder.seconds().broad_phase = reading;
-  if (!box_a.intersects(box_b)) return builder.finish();
+  if (!box_a.intersects(box_b)) return builder.take();
   timed(builder.seconds().confirmation, [&] {
     Pair_result result = builder.start_pair({0, 1});
     const Contact_summary contacts = contacts_of(surfaces, options, builder.face_pairs());
@@ -73,7 +73,7 @@ Frame overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options
     count_tests(contacts, result, builder.statistics());
     builder.end_pair(result, [&](Object_id id, std::uint32_t face) { return triangle_in(id == 0 ? a : b, face); });
   });
-  return builder.finish();
+  return builder.take();
 }
 
 Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, const Detector_options& options) {
@@ -103,7 +103,7 @@ Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, cons
         result, [&](Object_id, std::uint32_t face) { return surface_triangle(surface, face); }, workers);
     builder.add_patches(surface, surface, tolerance, workers);
   });
-  return builder.finish();
+  return builder.take();
 }
 
 }  // namespace lodestone

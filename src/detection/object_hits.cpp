@@ -9,7 +9,6 @@
 
 #include "lodestone/queries/ask_each.h"
 #include "queries/box_entry.h"
-#include "queries/ray_hits.h"
 
 namespace lodestone {
 
@@ -22,10 +21,10 @@ constexpr double most_error = 0x1p-28;
 bool is_precise(double t) { return t > 0x1p-1000 && t < 0x1p+1000; }
 
 /// A ray, as far as it can meet something first.
-class Way {
+class Shortened_ray {
  public:
   /// @param ray  has been checked
-  explicit Way(const Ray& ray) : Way(ray, {ray.origin, ray.direction, ray.length}) {}
+  explicit Shortened_ray(const Ray& ray) : Shortened_ray(ray, {ray.origin, ray.direction, ray.length}) {}
 
   const Ray& ray() const { return ray_; }
   Ray_entry entry(const Aabb& box) const { return entry_(box); }
@@ -39,7 +38,7 @@ class Way {
   }
 
  private:
-  Way(const Ray& ray, const Ray_frame& frame)
+  Shortened_ray(const Ray& ray, const Ray_frame& frame)
       : ray_(ray),
         entry_(frame),
         most_depth_(frame.most_limit),
@@ -54,7 +53,7 @@ class Search_among_objects {
  public:
   Search_among_objects(std::span<const Ray> rays, std::span<const Boxed_object> objects, const Ask_object& ask,
                        const Face_of_object& triangle_of)
-      : objects_(objects), ask_(ask), triangle_of_(triangle_of), ways_(rays.begin(), rays.end()), found_(rays.size()) {}
+      : objects_(objects), ask_(ask), triangle_of_(triangle_of), rays_(rays.begin(), rays.end()), found_(rays.size()) {}
 
   std::vector<std::optional<Object_hit>> run() {
     if (objects_.empty()) return std::move(found_);
@@ -62,7 +61,7 @@ class Search_among_objects {
     std::iota(all.begin(), all.end(), 0U);
     std::vector<Ray_ahead> rays;
     const Aabb box = box_around(all);
-    for (std::uint32_t i = 0; i < ways_.size(); ++i) add_if_near(i, ways_[i].entry(box), rays);
+    for (std::uint32_t i = 0; i < rays_.size(); ++i) add_if_near(i, rays_[i].entry(box), rays);
     visit(all, rays);
     return std::move(found_);
   }
@@ -97,13 +96,13 @@ class Search_among_objects {
   }
 
   void add_if_near(std::uint32_t ray, const Ray_entry& entry, std::vector<Ray_ahead>& rays) const {
-    if (entry.is_hit_within(ways_[ray].most_depth()) != 0) rays.push_back({ray, entry.depth});
+    if (entry.is_hit_within(rays_[ray].most_depth()) != 0) rays.push_back({ray, entry.depth});
   }
 
   /// @param objects  by their places in the list of all; their order is lost
   /// @param rays     that reach the box around them, unless they have met something before
   void visit(std::span<std::uint32_t> objects, std::vector<Ray_ahead>& rays) {
-    std::erase_if(rays, [this](const Ray_ahead& ahead) { return ahead.depth > ways_[ahead.ray].most_depth(); });
+    std::erase_if(rays, [this](const Ray_ahead& ahead) { return ahead.depth > rays_[ahead.ray].most_depth(); });
     if (rays.empty()) return;
     if (objects.size() == 1) return ask(objects_[objects.front()].id, rays);
     const std::size_t half = halve(objects);
@@ -112,7 +111,7 @@ class Search_among_objects {
     std::vector<Ray_ahead> below[2];
     std::ptrdiff_t second_sooner = 0;
     for (const Ray_ahead& ahead : rays) {
-      const Ray_entry entries[]{ways_[ahead.ray].entry(boxes[0]), ways_[ahead.ray].entry(boxes[1])};
+      const Ray_entry entries[]{rays_[ahead.ray].entry(boxes[0]), rays_[ahead.ray].entry(boxes[1])};
       for (std::size_t i = 0; i < 2; ++i) add_if_near(ahead.ray, entries[i], below[i]);
       if (entries[0].is_hit && entries[1].is_hit) second_sooner += entries[1].depth < entries[0].depth ? 1 : -1;
     }
@@ -122,13 +121,13 @@ class Search_among_objects {
 
   void ask(Object_id object, std::span<const Ray_ahead> rays) {
     asked_.clear();
-    for (const Ray_ahead& ahead : rays) asked_.push_back(ways_[ahead.ray].ray());
+    for (const Ray_ahead& ahead : rays) asked_.push_back(rays_[ahead.ray].ray());
     const auto hits = ask_(object, asked_);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const std::uint32_t ray = rays[i].ray;
       if (!hits[i] || !is_earlier(ray, {object, *hits[i]})) continue;
       found_[ray] = {object, *hits[i]};
-      ways_[ray].end_at(hits[i]->t);
+      rays_[ray].end_at(hits[i]->t);
     }
   }
 
@@ -140,7 +139,7 @@ class Search_among_objects {
     if (is_precise(t) && is_precise(other_t) && std::abs(t - other_t) > most_error * other_t) return t < other_t;
     const Triangle triangle = triangle_of_(hit.object, hit.hit.face),
                    other_triangle = triangle_of_(other.object, other.hit.face);
-    const Ray& whole = ways_[ray].ray();
+    const Ray& whole = rays_[ray].ray();
     return hit.object < other.object ? !meets_before(whole, other_triangle, triangle)
                                      : meets_before(whole, triangle, other_triangle);
   }
@@ -148,7 +147,7 @@ class Search_among_objects {
   std::span<const Boxed_object> objects_;
   const Ask_object& ask_;
   const Face_of_object& triangle_of_;
-  std::vector<Way> ways_;
+  std::vector<Shortened_ray> rays_;
   std::vector<std::optional<Object_hit>> found_;
   std::vector<Ray> asked_;
 };

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "lodestone/detection/particle_object.h"
-#include "lodestone/detection/saved_object.h"
 
 namespace lodestone {
 

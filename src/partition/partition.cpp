@@ -18,31 +18,6 @@ Feature_vectors Numbered_surface::picked_rows(const Feature_vectors& all) const 
   return mesh_vertices.empty() ? all : Feature_vectors(all(mesh_vertices, Eigen::all));
 }
 
-std::vector<std::uint32_t> seed_particles(const Vertex_graph& graph, const Feature_vectors& vectors,
-                                          const std::vector<Region_index>& labels, std::size_t regions) {
-  Feature_vectors means = Feature_vectors::Zero(static_cast<Eigen::Index>(regions), vectors.cols());
-  std::vector<std::size_t> sizes(regions, 0);
-  for (std::uint32_t v = 0; v < labels.size(); ++v) {
-    if (out_degree(v, graph) == 0) continue;
-    means.row(labels[v]) += vectors.row(v);
-    ++sizes[labels[v]];
-  }
-  for (std::size_t region = 0; region < regions; ++region)
-    if (sizes[region] > 0) means.row(region) /= static_cast<double>(sizes[region]);
-
-  std::vector<std::uint32_t> particles(regions, 0);
-  std::vector<double> nearest(regions, std::numeric_limits<double>::infinity());
-  for (std::uint32_t v = 0; v < labels.size(); ++v) {
-    if (out_degree(v, graph) == 0) continue;
-    const double distance = (vectors.row(v) - means.row(labels[v])).squaredNorm();
-    if (distance < nearest[labels[v]]) {
-      nearest[labels[v]] = distance;
-      particles[labels[v]] = v;
-    }
-  }
-  return particles;
-}
-
 namespace {
 
 void check(const Labelling& labelling, std::size_t vertices) {
@@ -68,6 +43,34 @@ std::size_t wanted_of(const Labelling& labelling, std::size_t labels) {
 Feature_vectors used_feature_vectors(const Numbered_surface& surface) {
   const Used_surface used(surface);
   return used.spread_rows(feature_vectors(used.surface().positions, used.surface().faces));
+}
+
+/// The vertex of each region that is nearest to the region's mean vector. Ties go to the lowest index. Vertices without
+/// edges are skipped. V distances, each of O(k) for k components.
+/// @param vectors  V x k
+std::vector<std::uint32_t> seed_particles(const Vertex_graph& graph, const Feature_vectors& vectors,
+                                          const std::vector<Region_index>& labels, std::size_t regions) {
+  Feature_vectors means = Feature_vectors::Zero(static_cast<Eigen::Index>(regions), vectors.cols());
+  std::vector<std::size_t> sizes(regions, 0);
+  for (std::uint32_t v = 0; v < labels.size(); ++v) {
+    if (out_degree(v, graph) == 0) continue;
+    means.row(labels[v]) += vectors.row(v);
+    ++sizes[labels[v]];
+  }
+  for (std::size_t region = 0; region < regions; ++region)
+    if (sizes[region] > 0) means.row(region) /= static_cast<double>(sizes[region]);
+
+  std::vector<std::uint32_t> particles(regions, 0);
+  std::vector<double> nearest(regions, std::numeric_limits<double>::infinity());
+  for (std::uint32_t v = 0; v < labels.size(); ++v) {
+    if (out_degree(v, graph) == 0) continue;
+    const double distance = (vectors.row(v) - means.row(labels[v])).squaredNorm();
+    if (distance < nearest[labels[v]]) {
+      nearest[labels[v]] = distance;
+      particles[labels[v]] = v;
+    }
+  }
+  return particles;
 }
 
 }  // namespace

@@ -14,7 +14,6 @@
 #include <string>
 #include <tuple>
 
-#include "lodestone/mesh/box.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/patch.h"
 #include "lodestone/partition/particle_count.h"

@@ -23,14 +23,9 @@ template <class Value>
 CLI::Validator one_of(const std::map<std::string, Value>& names) {
   std::vector<std::string> choices;
   for (const auto& entry : names) choices.push_back(entry.first);
-  return {[names](std::string& text) -> std::string {
+  return {[names, choices](std::string& text) -> std::string {
             const auto found = names.find(CLI::detail::to_lower(text));
-            if (found == names.end()) {
-              std::vector<std::string> expected;
-              expected.reserve(names.size());
-              for (const auto& entry : names) expected.push_back(entry.first);
-              return fmt::format("expected {}, found '{}'", fmt::join(expected, " or "), text);
-            }
+            if (found == names.end()) return fmt::format("expected {}, found '{}'", fmt::join(choices, " or "), text);
             text = std::to_string(static_cast<int>(found->second));
             return {};
           },

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "io/files/small_text.h"
-#include "io/results/frame_json.h"
 #include "lodestone/io/meshes/file_faces.h"
 #include "lodestone/io/results/text_table.h"
 #include "lodestone/version.h"
@@ -49,7 +48,7 @@ Json object_summary_json(const Run_subject& subject, Object_id id) {
   return json;
 }
 
-Json frame_json(std::optional<std::size_t> frame) { return frame ? Json(*frame) : Json(); }
+Json number_or_null(std::optional<std::size_t> frame) { return frame ? Json(*frame) : Json(); }
 
 Json truth_json(Score score) {
   score.finish();
@@ -63,8 +62,8 @@ Json pair_summary_json(const Run_subject& subject, Object_pair pair, const Pair_
   Json json{{"a", subject.scene.objects[pair.a].name},
             {"b", subject.scene.objects[pair.b].name},
             {"colliding_frames", summary.colliding_frames},
-            {"first_colliding_frame", frame_json(summary.first_colliding)},
-            {"last_colliding_frame", frame_json(summary.last_colliding)},
+            {"first_colliding_frame", number_or_null(summary.first_colliding)},
+            {"last_colliding_frame", number_or_null(summary.last_colliding)},
             {"face_pairs", summary.face_pairs}};
   if (tolerance_of(subject.command.options.exact, pair) > 0) json["near_frames"] = summary.near_frames;
   if (summary.capped_frames > 0) json["capped_frames"] = summary.capped_frames;

@@ -10,7 +10,6 @@
 #include "lodestone/io/scenes/scene_file.h"
 #include "lodestone/mesh/pairs.h"
 #include "program/commands.h"
-#include "program/frame_log.h"
 #include "program/frame_tally.h"
 #include "program/measurement.h"
 #include "program/scene_detector.h"

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "io/results/frame_json.h"
 #include "io/results/page_frame.h"
 #include "lodestone/io/scenes/object_options.h"
 #include "program/scene_positions.h"

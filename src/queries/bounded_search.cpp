@@ -198,7 +198,8 @@ Bounded_search::End Bounded_search::test_leaves(Node_pair pair, Visitor& visitor
   const auto indices_a = a_->layout().faces(leaf_a), indices_b = b_->layout().faces(leaf_b);
   for (const Face_candidate& candidate : filter_.face_candidates(leaf_a, leaf_b)) {
     ++exact_tests_;
-    if (!are_in_contact(leaf_triangle(faces_a, candidate.a), leaf_triangle(faces_b, candidate.b), candidate.crossing))
+    if (!are_in_contact(leaf_triangle(faces_a, candidate.a), leaf_triangle(faces_b, candidate.b), tolerance_,
+                        candidate.crossing))
       continue;
     if (visitor({indices_a[candidate.a], indices_b[candidate.b]}) == Visit::stop) return End::stopped;
   }
@@ -211,11 +212,6 @@ void Bounded_search::begin_filter() {
   if (of_a.data() == filter_of_a_.data() && of_b.data() == filter_of_b_.data()) return;
   filter_.begin(a_->view(), b_->view(), tolerance_);
   filter_of_a_ = of_a, filter_of_b_ = of_b;
-}
-
-bool Bounded_search::are_in_contact(const Triangle_corners& a, const Triangle_corners& b, Crossing likely) const {
-  return tolerance_ > 0 ? triangles_nearer_than(triangle_of(a), triangle_of(b), tolerance_)
-                        : triangles_intersect_given(a, b, likely);
 }
 
 }  // namespace lodestone

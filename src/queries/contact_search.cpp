@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/queries/contact_search.h"
 
-#include "lodestone/queries/face_pair_order.h"
+#include "queries/face_pair_order.h"
 
 namespace lodestone {
 

@@ -12,6 +12,7 @@
 #include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/queries/surface_on_demand.h"
 #include "lodestone/triangles/ray_crossing.h"
+#include "mesh/is_finite.h"
 #include "queries/ray_leaf_kernel.h"
 #include "triangles/ray_depth.h"
 
@@ -96,8 +97,7 @@ class Vertical_ray {
 
 template <Surface_on_demand Surface>
 Point_side find_side(Surface& surface, const Point& point) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (!std::isfinite(point[axis])) throw Bad_argument("the point has a coordinate that is not finite");
+  if (!is_finite(point)) throw Bad_argument("the point has a coordinate that is not finite");
   return ask_until_settled([&] { return Vertical_ray(surface, point).run(); }, surface);
 }
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <span>
 
-#include "lodestone/queries/face_pair_order.h"
 #include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/triangles/triangle_intersection.h"
+#include "queries/face_pair_order.h"
 #include "queries/leaf_distance.h"
 
 namespace lodestone {
@@ -80,8 +80,14 @@ void Opening_search::begin(Tree_on_demand& a, Tree_on_demand& b, const Opening_r
 
 bool Opening_search::open(std::vector<Face_pair>& found, Workers& workers) {
   const std::size_t before = found.size();
-  whole_ ? begin_whole() : begin_openings();
-  request_.all ? open_for_all(found, workers) : open_for_one(found);
+  if (whole_)
+    begin_whole();
+  else
+    begin_openings();
+  if (request_.all)
+    open_for_all(found, workers);
+  else
+    open_for_one(found);
   return found.size() > before;
 }
 

@@ -12,6 +12,7 @@
 #include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/queries/surface_on_demand.h"
 #include "lodestone/triangles/triangle_distance.h"
+#include "mesh/is_finite.h"
 #include "queries/point_leaf_kernel.h"
 #include "triangles/point_distance.h"
 
@@ -143,8 +144,7 @@ class Point_search {
 
 template <Surface_on_demand Surface>
 Closest_point find_closest_point(Surface& surface, const Point& point) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (!std::isfinite(point[axis])) throw Bad_argument("the point has a coordinate that is not finite");
+  if (!is_finite(point)) throw Bad_argument("the point has a coordinate that is not finite");
   return *ask_until_settled([&] { return Point_search(surface, point).run(); }, surface);
 }
 

@@ -75,9 +75,9 @@ class Growing {
 };
 
 /// What the numbers of a box must not exceed if it meets another.
-class Meeting {
+class Meets_box {
  public:
-  HWY_INLINE explicit Meeting(const Rounded_box& other) {
+  HWY_INLINE explicit Meets_box(const Rounded_box& other) {
     Rounded_box greatest{};
     for (int axis = 0; axis < 3; ++axis) {
       greatest.low[axis] = -other.negated_high[axis];
@@ -156,11 +156,11 @@ Rounded_box box_faces_kernel(const double* coordinates, const Face_corners* corn
 
 std::size_t cull_kernel(const Rounded_box* from, std::size_t count, const Rounded_box& other, Rounded_box* to,
                         Rounded_box& around) {
-  const Meeting meeting(other);
+  const Meets_box meets_other(other);
   Growing growing;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t meets = as_number(meeting.with(from[i]));
+    const std::uint32_t meets = as_number(meets_other.with(from[i]));
     growing.add_if(meets, from[i]);
     copy(from[i], to[kept]);
     kept += meets;

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "lodestone/volumes/to_box.h"
+#include "tree/face_region.h"
+
 namespace lodestone {
 
 namespace {
@@ -18,16 +21,15 @@ bool is_small(const Tree_on_demand& tree) { return tree.vertex_count() <= 256; }
 Region_anchors::Region_anchors(Tree_on_demand& tree, std::span<const Corners> corners,
                                std::span<const Region_index> labels, Coordinates rest) {
   const Tree_layout& layout = tree.layout();
-  const auto region_of = [&](std::uint32_t leaf) {
-    const auto& [a, b, c] = corners[layout.faces(leaf).front()];
-    return std::min({labels[a], labels[b], labels[c]});
+  const auto region_of_leaf = [&](std::uint32_t leaf) {
+    return region_of(corners[layout.faces(leaf).front()], labels);
   };
   // In depth-first order, so the first node with leaves of a single region is the topmost. A region's leaves are
   // consecutive.
   std::vector<bool> listed(std::size_t{std::ranges::max(labels)} + 1);
   for (std::uint32_t n = 0; n < layout.node_count(); ++n) {
-    const Region_index region = region_of(layout.node(n).leaf);
-    if (listed[region] || region_of(layout.node(n).end_leaf - 1) != region) continue;
+    const Region_index region = region_of_leaf(layout.node(n).leaf);
+    if (listed[region] || region_of_leaf(layout.node(n).end_leaf - 1) != region) continue;
     listed[region] = true;
     nodes_.push_back(n);
     regions_.push_back(region);
@@ -154,9 +156,7 @@ void Region_anchors::read(Tree_on_demand& tree, double reach) {
 void Region_anchors::find(Tree_on_demand& tree, double reach) {
   if (!is_small(tree)) return read(tree, reach);
   tree.pose_below(0);
-  const Aabb& all = tree.box(0);
-  box_ =
-      Box(Eigen::Vector3d(all.low[0], all.low[1], all.low[2]), Eigen::Vector3d(all.high[0], all.high[1], all.high[2]));
+  box_ = to_box(tree.box(0));
 }
 
 void Region_anchors::find_regions(Tree_on_demand& tree, double reach) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 
+#include "tree/face_region.h"
 #include "tree/float_frame.h"
 #include "tree/rank_kernel.h"
 #include "tree/read_ahead.h"
@@ -63,11 +64,6 @@ void Tree_builder::read_again(std::span<Split_item> items, Workers& workers) con
   });
 }
 
-Region_index Tree_builder::region_of(std::uint32_t face) const {
-  const auto& [a, b, c] = corners_[face];
-  return std::min({labels_[a], labels_[b], labels_[c]});
-}
-
 void Tree_builder::group_by_region() {
   if (labels_.empty()) {
     region_begin_ = {0, static_cast<std::uint32_t>(items_.size())};
@@ -76,10 +72,10 @@ void Tree_builder::group_by_region() {
   if (widest_spread(items_) < narrow_spread) read_again(items_, workers_);  // also for the centres of regions
   const std::size_t regions = std::size_t{std::ranges::max(labels_)} + 1;
   region_begin_.assign(regions + 1, 0);
-  for (const auto& item : items_) ++region_begin_[region_of(item.index) + 1];
+  for (const auto& item : items_) ++region_begin_[region_of(corners_[item.index], labels_) + 1];
   for (std::size_t region = 0; region < regions; ++region) region_begin_[region + 1] += region_begin_[region];
   auto next = region_begin_;
-  for (const auto& item : items_) spare_[next[region_of(item.index)]++] = item;
+  for (const auto& item : items_) spare_[next[region_of(corners_[item.index], labels_)]++] = item;
   std::swap(items_, spare_);
 }
 

@@ -39,7 +39,6 @@ class Tree_builder {
   void read_items();
   void read_again(std::span<Split_item> items, Workers& workers) const;
   void group_by_region();
-  Region_index region_of(std::uint32_t face) const;
   void size_lists(std::size_t leaves);
   std::vector<Split_item> region_items() const;
   void add_regions(std::span<Split_item> regions, std::span<Split_item> spare, const Branch& whole,

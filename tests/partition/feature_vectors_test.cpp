@@ -123,5 +123,14 @@ TEST(Factors, bad_weights_and_non_finite_values_are_refused) {
   EXPECT_THROW(factors(mesh, value), Bad_argument);
 }
 
+TEST(Factors, of_a_mesh_with_removed_vertices_are_refused) {
+  auto mesh = tetrahedron();
+  auto value = mesh.add_property_map<Surface_mesh::Vertex_index, double>("v:value", 1.0).first;
+  mesh.remove_vertex(mesh.add_vertex(Point(9, 9, 9)));
+  EXPECT_THROW(factors(mesh, value), Bad_mesh);
+  mesh.collect_garbage();
+  EXPECT_EQ(factors(mesh, value), Feature_vectors::Ones(4, 1));
+}
+
 }  // namespace
 }  // namespace lodestone

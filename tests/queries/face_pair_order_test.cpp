@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "lodestone/queries/face_pair_order.h"
+#include "queries/face_pair_order.h"
 
 #include <gtest/gtest.h>
 

@@ -142,7 +142,8 @@ struct Changed_faces {
 std::string title_of(std::uint32_t object, const Object_options& options);
 
 /// Refuses options that are out of range, and these where they have no effect:
-/// - in modes `exact` and `certified`: the collision distance, its measure, the choice of candidates and open seams;
+/// - in modes `exact` and `certified`: the collision distance, its measure, the choice of candidates, open seams and
+///   the least number of particles;
 /// - in other modes: a tolerance of either kind, self-collision, containment, parting, contact patches and the limit of
 ///   looseness;
 /// - in other modes than `certified`: `throw_if_broken`;

@@ -5,6 +5,7 @@
 #include <boost/container/static_vector.hpp>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "lodestone/detection/detector_options.h"
@@ -79,6 +80,11 @@ class Frame_builder {
 
   /// Ends the frame: sums up what the pairs hold.
   const Frame& finish();
+  /// The same, where the builder is not needed any more.
+  Frame take() {
+    finish();
+    return std::move(frame_);
+  }
 
  private:
   /// So many contacts share a pass, which stays in the caches.

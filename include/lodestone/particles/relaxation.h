@@ -193,6 +193,12 @@ inline bool disturbs(const Moved_particles& moved, const Particles& movers, doub
   return false;
 }
 
+/// Counts the positions that a particle reads to choose its step.
+template <Position_reader Reader>
+void count_reads(const Walking_object<Reader>& object, std::size_t particle, Relaxation_scratch& scratch) {
+  scratch.vertices_read += object.steps->from(object.particles->at[particle]).size();
+}
+
 /// Whether a particle stays without another comparison of its steps.
 template <Position_reader Reader>
 bool rests(std::span<const Walking_object<Reader>> objects, std::size_t o, std::size_t particle,
@@ -204,7 +210,7 @@ bool rests(std::span<const Walking_object<Reader>> objects, std::size_t o, std::
     if (scratch.moved[other].which.empty()) return false;
     if (rest.step_length < 0) {
       rest.step_length = measure_step_length(objects[o], particle);
-      scratch.vertices_read += objects[o].steps->from(particles.at[particle]).size();
+      count_reads(objects[o], particle, scratch);
     }
     const Particles& movers = *objects[other].particles;
     return disturbs(scratch.moved[other], movers, std::max(particles.effective_radius, movers.effective_radius),
@@ -222,12 +228,6 @@ void choose_step(std::span<const Walking_object<Reader>> objects, std::size_t o,
   scratch.rests[o][p] = {.stayed = step.vertex == objects[o].particles->at[p]};
   scratch.next_at[o][p] = step.vertex;
   scratch.next_positions[o][p] = step.position;
-}
-
-/// Counts the positions that a particle reads to choose its step.
-template <Position_reader Reader>
-void count_reads(const Walking_object<Reader>& object, std::size_t particle, Relaxation_scratch& scratch) {
-  scratch.vertices_read += object.steps->from(object.particles->at[particle]).size();
 }
 
 /// Whether a particle that is pulled stays without another comparison of its steps: nothing that it feels has moved.
@@ -340,10 +340,6 @@ void swing_to_the_end(std::span<const Walking_object<Reader>> objects, std::size
     objects[o].particles->positions.swap(scratch.next_positions[o]);
   }
 }
-
-}  // namespace internal
-
-namespace internal {
 
 /// Sizes the scratch for these objects, if it is not. An object without particles has none that walk.
 template <Position_reader Reader>

@@ -63,6 +63,7 @@ Feature_vectors feature_vectors(const Mesh& mesh, const Feature_options& options
 /// @param weight  >= 0
 /// @return V x Components, for `Lbg::extra_factors`
 /// @throws Bad_argument  negative weight, or a value that is not finite
+/// @throws Bad_mesh      a Surface_mesh with removed vertices
 template <int Components = 1, Triangle_mesh Mesh, class Map>
 Feature_vectors factors(const Mesh& mesh, const Map& map, double weight = 1) {
   if (!(weight >= 0)) throw Bad_argument("the weight of a factor must be >= 0");
@@ -78,6 +79,7 @@ Feature_vectors factors(const Mesh& mesh, const Map& map, double weight = 1) {
     }
     ++row;
   }
+  if (row != result.rows()) throw Bad_mesh("the mesh holds removed elements: call collect_garbage() on it first");
   if (!result.allFinite()) throw Bad_argument("a factor has a value that is not finite");
   return result;
 }

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "lodestone/partition/feature_vectors.h"
-#include "lodestone/partition/nearest_code_vector.h"
 #include "lodestone/partition/partition.h"
 
 namespace lodestone {

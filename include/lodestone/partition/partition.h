@@ -104,12 +104,6 @@ struct Partition {
   Partition_statistics statistics = {};  ///< what it took
 };
 
-/// The vertex of each region that is nearest to the region's mean vector. Ties go to the lowest index. Vertices without
-/// edges are skipped. V distances, each of O(k) for k components.
-/// @param vectors  V x k
-std::vector<std::uint32_t> seed_particles(const Vertex_graph& graph, const Feature_vectors& vectors,
-                                          const std::vector<Region_index>& labels, std::size_t regions);
-
 /// The steps that all strategies share: checks, repair, numbering of the regions, particles. Vertices without edges do
 /// not count for the vectors.
 /// @throws Bad_argument  the number of labels or vectors is not V, or a label is not below V

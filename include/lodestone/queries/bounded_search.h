@@ -59,7 +59,6 @@ class Bounded_search {
   template <class Visitor>
   End test_leaves(Node_pair pair, Visitor& visitor);
   void begin_filter();
-  bool are_in_contact(const Triangle_corners& a, const Triangle_corners& b, Crossing likely) const;
   bool is_broken() const { return a_->is_broken() || b_->is_broken(); }
   bool all_posed() const { return a_->all_posed() && b_->all_posed(); }
   void settle_broken();

@@ -96,20 +96,15 @@ class Contact_walk {
   template <class Visitor>
   Visit visit_leaf_contacts(std::uint32_t leaf_a, std::uint32_t leaf_b, Visitor& visitor);
 
-  bool are_in_contact(const Triangle_corners& a, const Triangle_corners& b, Crossing likely) const {
-    return distance_ > 0 ? triangles_nearer_than(triangle_of(a), triangle_of(b), distance_)
-                         : triangles_intersect_given(a, b, likely);
-  }
-
   /// Of faces that were near at rest only those count that intersect.
   bool is_contact(std::uint32_t leaf_a, std::uint32_t leaf_b, const Face_candidate& candidate,
                   const Triangle_corners& a, const Triangle_corners& b) const {
-    if (rest_.empty()) return are_in_contact(a, b, candidate.crossing);
+    if (rest_.empty()) return are_in_contact(a, b, distance_, candidate.crossing);
     const Triangle_corners rest_a = leaf_triangle(a_.tree->leaf_faces(leaf_a, rest_), candidate.a);
     const Triangle_corners rest_b = leaf_triangle(a_.tree->leaf_faces(leaf_b, rest_), candidate.b);
     if (corners_nearer_than(rest_a, rest_b, 2 * distance_))
       return boxes_meet(a, b) && triangles_intersect_given(a, b, candidate.crossing);
-    return are_in_contact(a, b, candidate.crossing) &&
+    return are_in_contact(a, b, distance_, candidate.crossing) &&
            (!near_at_rest(rest_a, rest_b) || triangles_intersect(triangle_of(a), triangle_of(b)));
   }
 

@@ -15,7 +15,7 @@ namespace lodestone {
 /// Two nodes below which to search.
 struct Opening_start {
   Node_pair nodes;  ///< of the first and of the second tree
-  float order = 0;  ///< squared distance of their anchors, relative to the sum of their radii
+  float order = 0;  ///< squared distance of their anchors, in squares of the sum of their radii
 };
 
 /// The pairs of nodes below which an Opening_search looks, and whether they may be read as a whole. Keeps its memory

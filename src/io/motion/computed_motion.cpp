@@ -136,8 +136,8 @@ class Held final : public Changed {
 
 }  // namespace
 
-std::unique_ptr<Computed_motion> computed_deformation(const detail::Deformed_shape& shape,
-                                                      std::span<const std::uint32_t> vertices) {
+std::unique_ptr<Computed_motion> detail::computed_deformation(const Deformed_shape& shape,
+                                                              std::span<const std::uint32_t> vertices) {
   auto part = shape.part(vertices);
   if (shape.deformations().empty()) return std::make_unique<Still>(part.rest());
   return std::make_unique<Deforming>(std::move(part));

@@ -108,7 +108,9 @@ Motion deform(std::vector<Point> rest, std::vector<Deformation> deformations) {
           },
           step);
   };
-  auto computed = [shape](std::span<const std::uint32_t> vertices) { return computed_deformation(*shape, vertices); };
+  auto computed = [shape](std::span<const std::uint32_t> vertices) {
+    return detail::computed_deformation(*shape, vertices);
+  };
   return {.frames = 0, .pose = std::move(pose), .computed = std::move(computed)};
 }
 

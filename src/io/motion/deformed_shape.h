@@ -4,10 +4,12 @@
 #include <CGAL/Bbox_3.h>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <variant>
 #include <vector>
 
+#include "lodestone/io/motion/computed_motion.h"
 #include "lodestone/io/motion/deformation.h"
 #include "lodestone/mesh/concepts.h"
 
@@ -73,5 +75,10 @@ class Deformed_shape {
   double half_diagonal_ = 0;     ///< of the bounding box
   std::vector<double> lengths_;  ///< per deformation: how long the shape is along its axis
 };
+
+/// Some points of a shape, as its deformations move them.
+/// @param vertices  their indices in the shape
+std::unique_ptr<Computed_motion> computed_deformation(const Deformed_shape& shape,
+                                                      std::span<const std::uint32_t> vertices);
 
 }  // namespace lodestone::detail

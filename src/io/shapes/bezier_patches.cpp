@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/shapes/shape_checks.h"
+#include "io/shapes/teapot_patches.h"
 #include "lodestone/io/shapes/shapes.h"
 
 namespace lodestone {

@@ -13,10 +13,6 @@
 
 namespace lodestone {
 
-namespace detail {
-class Deformed_shape;
-}
-
 /// A motion whose frames need not be posed as a whole: its positions are computed one by one, with the same bits, and
 /// it tells where they can be. A model of Computed_points and of Motion_promise, so mode `certified` reads from it only
 /// what is near. As a model of Computed_points it writes all positions to the memory given to `pose_all`.
@@ -30,11 +26,6 @@ class Computed_motion : public Position_source {
   /// The joints and morph targets that move the vertices; null: something else does.
   virtual const Skinned_points* skin() const { return nullptr; }
 };
-
-/// Some vertices of a shape that built-in deformations move.
-/// @param vertices  their indices in the shape
-std::unique_ptr<Computed_motion> computed_deformation(const detail::Deformed_shape& shape,
-                                                      std::span<const std::uint32_t> vertices);
 
 /// A motion that is taken elsewhere by an affine transformation.
 std::unique_ptr<Computed_motion> placed(std::unique_ptr<Computed_motion> motion,

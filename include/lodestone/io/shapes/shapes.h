@@ -10,9 +10,6 @@
 /// positive and finite, or more than 50 million triangles. Faces are counter-clockwise seen from outside.
 namespace lodestone {
 
-/// Control points of the Utah teapot in the format that `bezier_patches` reads.
-extern const char* const teapot_patches;
-
 /// Number of squares that each Bezier patch is cut into along its two parameters. Each square gives two triangles.
 struct Patch_grid {
   std::size_t u = 9;   ///< across the rows of control points; >= 1
