@@ -34,7 +34,8 @@ void add_partition(CLI::App& program, Partition_command& command, std::string& f
       ->capture_default_str();
   add_reading(app, command.reading);
   add_strategy_options(app, command.strategy, "Seed, for random strategies");
-  add_threads(app, command.strategy.settings.lbg.threads, "Maximum number of threads, for lbg and its variants; 0: all of the machine");
+  add_threads(app, command.strategy.settings.lbg.threads,
+              "Maximum number of threads, for lbg and its variants; 0: all of the machine");
   add_keep_islands(app, command.options);
   app.add_option("--out", command.out, "Coloured mesh (.ply)")->type_name("FILE")->check(not_empty());
   app.add_option("--json", command.json, "Statistics, and the region of each vertex")
