@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <span>
 
-#include "lodestone/mesh/concepts.h"
+#include "lodestone/mesh/mesh_numbering.h"
 
 namespace lodestone {
 
