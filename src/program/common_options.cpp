@@ -7,6 +7,7 @@
 
 #include "io/files/small_text.h"
 #include "lodestone/mesh/errors.h"
+#include "program/command_line.h"
 
 namespace lodestone {
 

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "program/command_description.h"
-#include "program/command_line.h"
 #include "program/commands.h"
 
 /// Options that several commands have.

@@ -155,7 +155,7 @@ std::string Detect_run::play(std::size_t frame) {
   if (truth) compare(result, *truth);
   const auto closest = find_closest();
   if (closest)
-    for (const auto& [a, b, found] : *closest) tally_.distances.push_back({{a, b}, found.points.distance});
+    for (const auto& [pair, found] : *closest) tally_.distances.push_back({pair, found.points.distance});
   const auto impacts = find_impacts(frame);
   if (impacts)
     for (const auto& [pair, impact] : *impacts) tally_.impacts.push_back({pair, impact.time});
@@ -194,7 +194,7 @@ std::optional<std::vector<Pair_truth>> Detect_run::find_truth() const {
   for (const auto& object : scene_.objects) surfaces.emplace_back(object.mesh);
   std::vector<Pair_truth> truth;
   for_each_pair([&](Object_id a, Object_id b) {
-    auto& faces = truth.emplace_back(Pair_truth{a, b, {}}).faces;
+    auto& faces = truth.emplace_back(Pair_truth{{a, b}, {}}).faces;
     const auto &one = surfaces[a], &other = surfaces[b];
     if (one.box.intersects(other.box))
       faces = exhaustive_numbered(one.positions, one.numbering.corners(), other.positions, other.numbering.corners());
@@ -205,7 +205,7 @@ std::optional<std::vector<Pair_truth>> Detect_run::find_truth() const {
 std::optional<std::vector<Pair_closest>> Detect_run::find_closest() {
   if (!command_.closest) return std::nullopt;
   std::vector<Pair_closest> closest;
-  for_each_pair([&](Object_id a, Object_id b) { closest.push_back({a, b, detector_->closest(a, b)}); });
+  for_each_pair([&](Object_id a, Object_id b) { closest.push_back({{a, b}, detector_->closest(a, b)}); });
   return closest;
 }
 
@@ -219,21 +219,19 @@ std::optional<std::vector<Object_impact>> Detect_run::find_impacts(std::size_t f
 }
 
 void Detect_run::compare(const Frame& result, const std::vector<Pair_truth>& truth) {
-  for (const auto& real : truth) {
-    const auto found =
-        std::ranges::find_if(result.pairs, [&](const auto& p) { return p.a == real.a && p.b == real.b; });
-    const bool listed = found != result.pairs.end();
-    const bool seen = listed && found->collides;
-    tally_.scores.push_back({{real.a, real.b}, !real.faces.empty(), seen});
-    tally_.missed |= !real.faces.empty() && !seen;
-    if (!listed) continue;
-    tally_.contradicted |= found->collides && real.faces.empty();
+  for (const auto& [pair, faces] : truth) {
+    const Pair_result* found = listed(result, pair);
+    const bool seen = found != nullptr && found->collides;
+    tally_.scores.push_back({pair, !faces.empty(), seen});
+    tally_.missed |= !faces.empty() && !seen;
+    if (found == nullptr) continue;
+    tally_.contradicted |= found->collides && faces.empty();
     std::vector<Face_pair> intersecting;
     for (std::size_t i = found->first_contact; i < found->first_contact + found->contacts; ++i)
       if (result.intersects(i)) intersecting.push_back(result.face_pairs[i]);
-    tally_.contradicted |= !std::ranges::includes(real.faces, intersecting);
+    tally_.contradicted |= !std::ranges::includes(faces, intersecting);
     if (command_.options.contacts == Contact_query::all && !found->capped)
-      tally_.missed |= !std::ranges::includes(intersecting, real.faces);
+      tally_.missed |= !std::ranges::includes(intersecting, faces);
   }
 }
 

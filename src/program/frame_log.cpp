@@ -109,12 +109,14 @@ Json pair_json(const std::vector<Scene_object>& objects, const Frame& frame, con
 Json closest_json(const std::vector<Scene_object>& objects, std::span<const Pair_closest> closest) {
   const auto point = [](const Point& p) { return Json{p.x(), p.y(), p.z()}; };
   Json json = Json::array();
-  for (const auto& [a, b, found] : closest)
-    json.push_back({{"a", objects[a].name},
-                    {"b", objects[b].name},
+  for (const auto& [pair, found] : closest) {
+    const auto &a = objects[pair.a], &b = objects[pair.b];
+    json.push_back({{"a", a.name},
+                    {"b", b.name},
                     {"distance", found.points.distance},
-                    {"faces", {objects[a].file_face[found.faces.a], objects[b].file_face[found.faces.b]}},
+                    {"faces", {a.file_face[found.faces.a], b.file_face[found.faces.b]}},
                     {"points", {point(found.points.a), point(found.points.b)}}});
+  }
   return json;
 }
 
@@ -133,6 +135,12 @@ Json impacts_json(const std::vector<Scene_object>& objects, std::span<const Obje
 
 }  // namespace
 
+const Pair_result* listed(const Frame& frame, Object_pair pair) {
+  const auto found =
+      std::ranges::find_if(frame.pairs, [pair](const auto& other) { return other.a == pair.a && other.b == pair.b; });
+  return found == frame.pairs.end() ? nullptr : &*found;
+}
+
 std::string json_text(const nlohmann::ordered_json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -143,14 +151,12 @@ std::string frame_line(std::size_t frame, const std::vector<Scene_object>& objec
   Json pairs = Json::array();
   for (const auto& pair : result.pairs) pairs.push_back(pair_json(objects, result, pair, options));
   if (truth) {
-    for (const auto& real : *truth) {
-      const auto listed =
-          std::ranges::find_if(result.pairs, [&](const auto& pair) { return pair.a == real.a && pair.b == real.b; });
-      if (listed != result.pairs.end())
-        pairs[static_cast<std::size_t>(listed - result.pairs.begin())]["truth"] = !real.faces.empty();
-      else if (!real.faces.empty())
+    for (const auto& [pair, faces] : *truth) {
+      if (const Pair_result* found = listed(result, pair))
+        pairs[static_cast<std::size_t>(found - result.pairs.data())]["truth"] = !faces.empty();
+      else if (!faces.empty())
         pairs.push_back(
-            {{"a", objects[real.a].name}, {"b", objects[real.b].name}, {"collides", false}, {"truth", true}});
+            {{"a", objects[pair.a].name}, {"b", objects[pair.b].name}, {"collides", false}, {"truth", true}});
     }
   }
   Json line{{"frame", frame}, {"pairs", std::move(pairs)}};

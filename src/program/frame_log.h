@@ -16,17 +16,18 @@ namespace lodestone {
 
 /// The truth about one object pair in one frame.
 struct Pair_truth {
-  Object_id a = 0;
-  Object_id b = 0;
+  Object_pair pair = {};
   std::vector<Face_pair> faces;  ///< all intersecting face pairs, sorted
 };
 
 /// Where one object pair is closest in one frame.
 struct Pair_closest {
-  Object_id a = 0;
-  Object_id b = 0;
+  Object_pair pair = {};
   Closest_faces found = {};
 };
+
+/// What a frame says about a pair; null: it does not list the pair.
+const Pair_result* listed(const Frame& frame, Object_pair pair);
 
 /// JSON and a line break. Invalid UTF-8, which file names may contain, becomes U+FFFD.
 /// @param indent  columns per level; negative: on one line

@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "lodestone/detection/broad_phase.h"
-#include "lodestone/detection/frame.h"
+#include "lodestone/mesh/pairs.h"
 
 namespace lodestone {
 

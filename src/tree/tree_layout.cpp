@@ -2,7 +2,6 @@
 #include "lodestone/tree/tree_layout.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "lodestone/mesh/errors.h"

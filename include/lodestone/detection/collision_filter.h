@@ -5,9 +5,9 @@
 #include <set>
 #include <vector>
 
-#include "lodestone/detection/broad_phase.h"
 #include "lodestone/detection/collision_groups.h"
 #include "lodestone/detection/detector_options.h"
+#include "lodestone/mesh/pairs.h"
 
 namespace lodestone {
 

@@ -17,7 +17,7 @@
 #include "lodestone/particles/senin.h"
 #include "lodestone/partition/particle_count.h"
 #include "lodestone/partition/partition.h"
-#include "lodestone/tree/region_tree.h"
+#include "lodestone/tree/tree_layout.h"
 
 namespace lodestone {
 

@@ -6,11 +6,12 @@
 #include <utility>
 
 #include "lodestone/detection/detector_options.h"
-#include "lodestone/detection/exact_object.h"
 #include "lodestone/detection/frame.h"
+#include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/coordinate_reader.h"
 #include "lodestone/mesh/faces_in_box.h"
 #include "lodestone/mesh/joined_vertices.h"
+#include "lodestone/mesh/mesh_numbering.h"
 #include "lodestone/mesh/stopwatch.h"
 
 /// Frames of the mode `exact` for meshes that are asked about once: nothing is built that another frame would need.

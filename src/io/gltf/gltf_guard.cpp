@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/files/json_reader.h"
 #include "io/gltf/gltf_unread.h"
 
 namespace lodestone {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "io/files/json_reader.h"
 #include "io/gltf/gltf_container.h"
 
 /// The guard of glTF 2.0: it checks the whole file before tinygltf sees any of it.

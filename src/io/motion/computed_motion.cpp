@@ -2,6 +2,7 @@
 #include "lodestone/io/motion/computed_motion.h"
 
 #include <algorithm>
+#include <concepts>
 #include <utility>
 
 #include "io/motion/deformed_shape.h"
@@ -13,33 +14,22 @@
 namespace lodestone {
 namespace {
 
-/// What stays where it is: its boxes at rest are exact.
-class Still final : public Computed_motion {
+/// Computed points as a motion. Morphed_points without targets are a shape at rest: they stay where they are, and their
+/// boxes are exact.
+template <class Points>
+class Motion_of final : public Computed_motion {
  public:
-  explicit Still(const std::vector<Point>& rest) : points_(coordinates_of(rest)) {}
+  explicit Motion_of(Points points) : points_(std::move(points)) {}
 
-  void set_frame(std::size_t /*frame*/) override {}
+  void set_frame(std::size_t frame) override {
+    if constexpr (is_deforming) points_.set_frame(static_cast<double>(frame));
+  }
   Any_bound bound(const Bounded_object& object) const override {
-    return Any_bound(Linear_bound(points_, object.layout));
+    if constexpr (is_deforming)
+      return points_.bound(object);
+    else
+      return Any_bound(Linear_bound(points_, object.layout));
   }
-  std::uint32_t vertex_count() const override { return points_.vertex_count(); }
-  std::uint64_t pose_number() const override { return 1; }
-  Eigen::Vector3d operator()(std::uint32_t vertex) const override { return points_(vertex); }
-  void pose(std::span<const std::uint32_t> vertices, std::span<double> coordinates) const override {
-    points_.pose(vertices, coordinates);
-  }
-  void pose_all(std::span<double> coordinates) const override { points_.pose_all(coordinates); }
-
- private:
-  Morphed_points points_;
-};
-
-class Deforming final : public Computed_motion {
- public:
-  explicit Deforming(detail::Deformed_shape shape) : points_(std::move(shape)) {}
-
-  void set_frame(std::size_t frame) override { points_.set_frame(static_cast<double>(frame)); }
-  Any_bound bound(const Bounded_object& object) const override { return points_.bound(object); }
   std::uint32_t vertex_count() const override { return points_.vertex_count(); }
   std::uint64_t pose_number() const override { return points_.pose_number(); }
   Eigen::Vector3d operator()(std::uint32_t vertex) const override { return points_(vertex); }
@@ -49,7 +39,9 @@ class Deforming final : public Computed_motion {
   void pose_all(std::span<double> coordinates) const override { points_.pose_all(coordinates); }
 
  private:
-  Deformed_points points_;
+  static constexpr bool is_deforming = std::same_as<Points, Deformed_points>;
+
+  Points points_;
 };
 
 /// Another motion, changed.
@@ -139,8 +131,9 @@ class Held final : public Changed {
 std::unique_ptr<Computed_motion> detail::computed_deformation(const Deformed_shape& shape,
                                                               std::span<const std::uint32_t> vertices) {
   auto part = shape.part(vertices);
-  if (shape.deformations().empty()) return std::make_unique<Still>(part.rest());
-  return std::make_unique<Deforming>(std::move(part));
+  if (shape.deformations().empty())
+    return std::make_unique<Motion_of<Morphed_points>>(Morphed_points(coordinates_of(part.rest())));
+  return std::make_unique<Motion_of<Deformed_points>>(Deformed_points(std::move(part)));
 }
 
 std::unique_ptr<Computed_motion> placed(std::unique_ptr<Computed_motion> motion,

@@ -136,13 +136,7 @@ Scene read_inputs(std::span<const std::filesystem::path> inputs, const Scene_opt
 }
 
 Animation animation_of(const Scene_object& object, std::size_t frames) {
-  Animation animation{.kind = "object", .vertices = object.file_vertices, .faces = {}};
-  for (const auto f : object.mesh.faces()) {
-    Corners& corners = animation.faces.emplace_back();
-    std::size_t corner = 0;
-    for (const auto v : object.mesh.vertices_around_face(object.mesh.halfedge(f)))
-      corners[corner++] = object.file_vertex[v];
-  }
+  Animation animation{.kind = "object", .vertices = object.file_vertices, .faces = detail::file_corners(object)};
   animation.file_face = object.file_face;
   animation.parts = object.parts;
   animation.ignored_extensions = object.ignored_extensions;

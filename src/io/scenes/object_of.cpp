@@ -29,4 +29,14 @@ Scene_object object_of(Surface_mesh&& shape) {
   return object;
 }
 
+std::vector<Corners> file_corners(const Scene_object& object) {
+  std::vector<Corners> faces;
+  faces.reserve(object.mesh.number_of_faces());
+  for (const auto f : object.mesh.faces()) {
+    auto corner = faces.emplace_back().begin();
+    for (const auto v : object.mesh.vertices_around_face(object.mesh.halfedge(f))) *corner++ = object.file_vertex[v];
+  }
+  return faces;
+}
+
 }  // namespace lodestone::detail

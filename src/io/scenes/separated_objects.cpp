@@ -16,6 +16,7 @@
 
 #include "io/files/small_text.h"
 #include "io/files/unique_names.h"
+#include "io/scenes/object_of.h"
 #include "io/scenes/scene_folder.h"
 #include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/motion/computed_motion.h"
@@ -45,17 +46,6 @@ struct Separation {
   std::vector<std::uint32_t> label;  ///< per face
   std::vector<std::string> names;    ///< per label
 };
-
-/// The corners of all faces, by file vertex.
-std::vector<Corners> file_corners(const Scene_object& object) {
-  std::vector<Corners> faces;
-  faces.reserve(object.mesh.number_of_faces());
-  for (const auto f : object.mesh.faces()) {
-    auto corner = faces.emplace_back().begin();
-    for (const auto v : object.mesh.vertices_around_face(object.mesh.halfedge(f))) *corner++ = object.file_vertex[v];
-  }
-  return faces;
-}
 
 std::vector<Point> file_points(const Scene_object& object) {
   std::vector<Point> points(object.file_vertices);
@@ -213,7 +203,7 @@ void give_names(std::span<std::vector<Scene_object>> separated, std::span<const 
 }  // namespace
 
 std::vector<Scene_object> separated_objects(const Scene_object& object, Separate what) {
-  const auto faces = file_corners(object);
+  const auto faces = detail::file_corners(object);
   const auto by = what == Separate::parts ? by_part(object) : by_component(object, faces);
   const auto pose = std::make_shared<Whole_pose>(object.motion.pose, object.file_vertices);
   std::vector<Scene_object> objects;
