@@ -40,12 +40,6 @@ constexpr double narrow_share = 0x1p-16;
 /// A frame that is not smaller by this is not worth a pass.
 constexpr double least_gain = 0x1p-8;
 
-/// Kept per thread, some 200 kB: to get this memory from the system takes longer than to search small surfaces.
-Face_group_filter& filter_of_thread() {
-  static thread_local Face_group_filter filter;
-  return filter;
-}
-
 }  // namespace
 
 std::optional<Contact_summary> Overlap_search::run(const Faces_in_box& a, const Box& box_a, const Faces_in_box& b,
@@ -59,18 +53,25 @@ std::optional<Contact_summary> Overlap_search::run(const Faces_in_box& a, const 
   if (a.faces.size() * b.faces.size() <= few_pairs) {
     test_all(a, b);
   } else {
-    filter_ = &filter_of_thread();
+    Kept& kept = kept_of_thread();
+    filter_ = &kept.filter, stacks_ = kept.stacks;
     filter_->begin(a.coordinates, to_aabb(box_a), b.coordinates, to_aabb(box_b));
     const Box overlap = box_a.intersection(box_b);
     const bool sliced = one_is_enough_ && std::min(a.faces.size(), b.faces.size()) > few_faces;
     const bool in_slice = sliced && search_slice(a, b, overlap);
     if (!in_slice) search_all(a, b, overlap);
+    for (Stack& stack : kept.stacks) stack.clear();
   }
   if (has_given_up_) return std::nullopt;
   const Contact_summary summary{.found = found.size() > first, .leaf_tests = leaf_tests_, .exact_tests = exact_tests_};
   if (query == Contact_query::yes_no) found.resize(first);
   sort_face_pairs(std::span(found).subspan(first));
   return summary;
+}
+
+Overlap_search::Kept& Overlap_search::kept_of_thread() {
+  static thread_local Kept kept;
+  return kept;
 }
 
 /// Gives the faces whose boxes meet to the exact test, without a list of boxes.
@@ -106,7 +107,7 @@ bool Overlap_search::search_all(const Faces_in_box& a, const Faces_in_box& b, co
   if (overlap.isEmpty() || a.faces.empty() || b.faces.empty()) return false;
   faces_[0] = &a, faces_[1] = &b;
   const bool few = std::max(a.faces.size(), b.faces.size()) <= few_faces;
-  most_faces_ = one_is_enough_ && few ? small_group_faces : group_faces;
+  most_faces_ = one_is_enough_ && few && exact_tests_ < patience ? small_group_faces : group_faces;
   most_leaf_tests_ = leaf_tests_ + most_partners * (2 + (a.faces.size() + b.faces.size()) / most_faces_);
   round_in(overlap);
   Pair_of_parts whole{box_faces(0), box_faces(1)};
@@ -117,7 +118,7 @@ void Overlap_search::Stack::reserve(std::size_t count) {
   if (top_ + count <= capacity_) return;
   std::size_t bytes = sizeof(Rounded_box) * std::max(top_ + count, 2 * capacity_);
   Release release;
-  if (bytes > large_page) {
+  if (bytes > large_page / 4) {
     bytes = (bytes + large_page - 1) / large_page * large_page;
     release.alignment = std::align_val_t(large_page);
   }
@@ -128,6 +129,13 @@ void Overlap_search::Stack::reserve(std::size_t count) {
   std::copy_n(boxes_.get(), top_, larger.get());
   boxes_ = std::move(larger);
   capacity_ = bytes / sizeof(Rounded_box);
+}
+
+void Overlap_search::Stack::clear() {
+  top_ = 0;
+  if (capacity_ * sizeof(Rounded_box) <= large_page) return;
+  boxes_.reset();
+  capacity_ = 0;
 }
 
 void Overlap_search::round_in(const Box& frame) {
@@ -292,10 +300,12 @@ bool Overlap_search::gives_up() {
   return has_given_up_;
 }
 
-/// Gives the faces whose boxes meet to the exact test.
+/// Gives the faces whose boxes meet to the exact test. If there have been many for nothing, lists are halved no further
+/// than for the filter from now on.
 /// @return whether the search is over
 bool Overlap_search::test_few(const Pair_of_parts& parts) {
   ++leaf_tests_;
+  if (exact_tests_ >= patience) most_faces_ = group_faces;
   for (const Rounded_box& box_a : std::span(stacks_[0].at(parts[0].begin), parts[0].count))
     for (const Rounded_box& box_b : std::span(stacks_[1].at(parts[1].begin), parts[1].count))
       if (meet(box_a, box_b) && test_pair(box_a.index, box_b.index, no_crossing)) return true;

@@ -145,6 +145,17 @@ TEST(Overlap_search, needs_few_exact_tests_where_surfaces_cross) {
   EXPECT_LT(summary->exact_tests, 2 * found.size());
 }
 
+/// One contact is searched for with exact tests alone at first. Where there is none, the filter is worth it.
+TEST(Overlap_search, needs_few_exact_tests_where_surfaces_lie_close_to_each_other_but_do_not_meet) {
+  const Face_soup a(icosphere(8)), b = placed(a, 0.97);
+  Faces_in_box faces_a, faces_b;
+  read(a, box_of(b), faces_a), read(b, box_of(b), faces_b);
+  std::vector<Face_pair> found;
+  const auto summary = Overlap_search().run(faces_a, box_of(a), faces_b, box_of(b), Contact_query::yes_no, found);
+  EXPECT_FALSE(summary->found);
+  EXPECT_LT(summary->exact_tests, 100U);
+}
+
 TEST(Overlap_search, adds_to_what_was_found_before_and_counts_each_run_alone) {
   const Face_soup a(icosphere(12)), inner = placed(a, 0.5), crossing = moved(a, 0.4, 0.01, 0);
   const Face_pair before{7, 7};

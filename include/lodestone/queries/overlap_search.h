@@ -55,6 +55,8 @@ class Overlap_search {
     void drop_to(std::size_t top) { top_ = top; }
     /// Makes room for `count` boxes on top, which it leaves unset. Invalidates addresses.
     void reserve(std::size_t count);
+    /// Empties it, and gives its memory back if that is more than a large page.
+    void clear();
     /// Adds boxes that have been written on top.
     Part push(std::size_t count, const Rounded_box& around) {
       top_ += count;
@@ -70,6 +72,14 @@ class Overlap_search {
     std::unique_ptr<Rounded_box[], Release> boxes_;
     std::size_t top_ = 0, capacity_ = 0;
   };
+
+  /// What each thread keeps from one search to the next: some 200 kB, and two stacks of a large page at most. To get
+  /// this memory from the system can take longer than the search.
+  struct Kept {
+    Face_group_filter filter;
+    Stack stacks[2];
+  };
+  static Kept& kept_of_thread();
 
   void test_all(const Faces_in_box& a, const Faces_in_box& b);
   bool search_slice(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap);
@@ -98,17 +108,20 @@ class Overlap_search {
   static constexpr std::size_t few_pairs = 64;
   /// Where one contact is enough and surfaces have few faces, the filter is mostly not needed at all.
   static constexpr std::size_t small_group_faces = 8;
+  /// After so many exact tests without a contact the filter is worth it: surfaces are close to each other, but meet
+  /// nowhere or in few places.
+  static constexpr std::size_t patience = 32;
   /// More pairs of short lists per short list are not filtered.
   static constexpr std::size_t most_partners = 16;
   /// Of surfaces with more faces than this, a slice is searched first if one contact is enough.
   static constexpr std::size_t few_faces = 512;
 
   const Faces_in_box* faces_[2] = {};
-  Box frame_;              ///< boxes are rounded in it: what lies outside is moved to its sides
-  float narrow_side_ = 0;  ///< a rounded box whose sides are shorter is narrow
-  Stack stacks_[2];
+  Box frame_;                            ///< boxes are rounded in it: what lies outside is moved to its sides
+  float narrow_side_ = 0;                ///< a rounded box whose sides are shorter is narrow
+  Stack* stacks_ = nullptr;              ///< two, of this thread
+  Face_group_filter* filter_ = nullptr;  ///< of this thread
   std::vector<Corners> groups_[2];
-  Face_group_filter* filter_ = nullptr;
   std::vector<Face_pair>* found_ = nullptr;
   bool one_is_enough_ = false, has_given_up_ = false;
   std::size_t most_faces_ = 0;  ///< of a list that is not halved
