@@ -2,6 +2,8 @@
 #include "lodestone/detection/known_motion.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "lodestone/bounds/placed_bound.h"
 #include "lodestone/mesh/errors.h"
@@ -49,6 +51,12 @@ class Mesh_positions final : public Position_source {
   const Placed_mesh* mesh_;
 };
 
+std::vector<double> all_of(const Position_source& positions) {
+  std::vector<double> coordinates(3 * std::size_t{positions.vertex_count()});
+  positions.pose_all(coordinates);
+  return coordinates;
+}
+
 /// Shows a bound where the vertices are in the mesh. As long as others are given, nobody else does.
 void show_mesh(Node_bound& bound, const Placed_mesh& mesh, const Tree_layout& layout) {
   const Coordinates in_mesh = mesh.mesh().read();
@@ -75,7 +83,7 @@ std::unique_ptr<const Position_source> positions_of(Placed_mesh& mesh) {
 std::vector<std::unique_ptr<Node_bound>> Known_motion::bounds(Placed_mesh& mesh, const Tree_layout& layout,
                                                               std::span<const Region_index> labels) {
   positions_in_mesh_ = std::make_unique<Mesh_positions>(mesh);
-  if (!promises_.empty()) keep_first(rest_);
+  if (awaits_rest()) rest_ = all_of(*positions_in_mesh_);
   const Bounded_object in_mesh{.layout = layout, .labels = labels, .rest = rest_, .positions = *positions_in_mesh_};
   std::vector<std::unique_ptr<Node_bound>> bounds;
   if (auto own = bound_of_points(mesh, in_mesh)) bounds.push_back(std::move(own));
@@ -84,17 +92,15 @@ std::vector<std::unique_ptr<Node_bound>> Known_motion::bounds(Placed_mesh& mesh,
   return bounds;
 }
 
-/// Keeps the positions that the mesh has now, unless some were kept before.
-void Known_motion::keep_first(std::vector<double>& positions) const {
-  if (!positions.empty()) return;
-  std::vector<double> first(3 * std::size_t{positions_in_mesh_->vertex_count()});
-  positions_in_mesh_->pose_all(first);
-  positions = std::move(first);
+void Known_motion::take_rest(const Placed_mesh& mesh) {
+  if (!awaits_rest()) return;
+  auto now = all_of(Mesh_positions(mesh));
+  if (std::ranges::all_of(now, [](double coordinate) { return std::isfinite(coordinate); })) rest_ = std::move(now);
 }
 
 /// The bound that the points of the mesh have by themselves; null: none.
 std::unique_ptr<Node_bound> Known_motion::bound_of_points(const Placed_mesh& mesh, const Bounded_object& in_mesh) {
-  if (mesh.mesh().own_bound_needs_rest()) keep_first(rest_of_points_);
+  if (mesh.mesh().own_bound_needs_rest() && rest_of_points_.empty()) rest_of_points_ = all_of(*positions_in_mesh_);
   auto bound = mesh.mesh().own_bound({in_mesh.layout, in_mesh.labels, rest_of_points_, in_mesh.positions});
   return bound ? placed(std::move(bound), mesh, in_mesh) : nullptr;
 }

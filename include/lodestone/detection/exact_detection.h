@@ -165,7 +165,7 @@ class Exact_detection final : public Detection {
   void promise(Object_id object, Make_bound make) {
     check_not_busy();
     if (options_.mode != Mode::certified) throw Bad_argument("promise needs the mode certified");
-    objects_[object].promise(std::move(make));
+    objects_.promise(object, std::move(make));
   }
   /// The surface of an object as one that is bounded; null before the first query, and in mode `exact`.
   const Bounded_surface* bounded(Object_id object) const { return objects_[object].bounded(); }

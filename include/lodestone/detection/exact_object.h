@@ -148,6 +148,18 @@ class Exact_object {
     refreshed_in_ = 0;
     bounded_.reset();
   }
+  /// Whether a promise awaits the positions at rest.
+  bool awaits_rest() const { return motion_.awaits_rest(); }
+  /// Takes the positions that the mesh has now as those at rest, if a promise awaits them. Not those of a mesh that has
+  /// been changed since it was numbered.
+  void take_rest_of_promises() {
+    try {
+      mesh().check_connectivity(title());
+    } catch (const Error&) {
+      return;  // a query about this object will say so
+    }
+    motion_.take_rest(mesh_);
+  }
   /// Makes the bounds of a surface that has just been refitted. The first time, promises take its positions as those at
   /// rest.
   /// @param compare_all  see Bounded_surface

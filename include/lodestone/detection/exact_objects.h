@@ -49,10 +49,12 @@ class Exact_objects {
   /// @throws Bad_mesh, Bad_argument  the object stays as it was
   void rebuild(Object_id id, std::span<const std::uint32_t> file_vertex) {
     timed(work_.seconds.build, [&] { objects_[id]->rebuild(file_vertex, workers_); });
+    if (objects_[id]->awaits_rest()) awaiting_rest_.push_back(id);
   }
   /// The same where it is known which faces have changed.
   void rebuild(Object_id id, const Changed_faces& changed) {
     timed(work_.seconds.build, [&] { objects_[id]->rebuild(changed, workers_); });
+    if (objects_[id]->awaits_rest()) awaiting_rest_.push_back(id);
   }
 
   /// Writes what was built of an object, which is built first if it has not been.
@@ -66,6 +68,12 @@ class Exact_objects {
 
   /// The promises that positions stay as they are.
   const std::shared_ptr<Position_hold>& hold() const { return hold_; }
+
+  /// Promises something about the motion of an object. The next query, of whichever objects, finds it at rest.
+  void promise(Object_id id, Make_bound make) {
+    awaiting_rest_.push_back(id);
+    objects_[id]->promise(std::move(make));
+  }
 
   /// Forgets an object. O(objects).
   void remove(Object_id id) {
@@ -129,6 +137,7 @@ class Exact_objects {
 
  private:
   void start_on_demand(std::span<const Object_id> ids);
+  void take_rest_of_promises();
   void refit_built(std::span<const Object_id> ids);
   void build_new(std::span<const Object_id> ids);
   void rebuild_loose(std::span<const Object_id> ids);
@@ -144,6 +153,7 @@ class Exact_objects {
   Workers& workers_;
   std::vector<std::unique_ptr<Object>> objects_;  ///< null: removed
   std::vector<Object_id> ids_;                    ///< of the others
+  std::vector<Object_id> awaiting_rest_;          ///< those with promises whose positions at rest are to be taken
   Frame_statistics work_;
   std::shared_ptr<Position_hold> hold_ = std::make_shared<Position_hold>();
 
@@ -158,6 +168,7 @@ void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
   work_.seconds.refit = 0;
   work_.vertices_read = 0;
   whole_.clear();
+  if (!awaiting_rest_.empty()) take_rest_of_promises();
   for (const auto id : ids) {
     if (objects_[id]->is_refreshed(hold_->number())) {
       objects_[id]->begin_query_of_refreshed();
@@ -179,6 +190,15 @@ void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
   rebuild_loose(whole_);
   if (options_.mode == Mode::certified) bound_refitted(whole_);
   for (const auto id : ids) objects_[id]->note_refreshed(hold_->number());
+}
+
+/// Also of objects that the query is not about: a promise must not depend on whom the caller asks about first.
+template <Bounding_volume Volume>
+void Exact_objects<Volume>::take_rest_of_promises() {
+  std::erase_if(awaiting_rest_, [this](Object_id id) {
+    if (objects_[id]) objects_[id]->take_rest_of_promises();
+    return !objects_[id] || !objects_[id]->awaits_rest();
+  });
 }
 
 template <Bounding_volume Volume>

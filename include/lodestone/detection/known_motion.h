@@ -26,6 +26,10 @@ class Known_motion {
  public:
   /// Another promise.
   void promise(Make_bound make) { promises_.push_back(std::move(make)); }
+  /// Whether a promise is about positions at rest that are not known yet.
+  bool awaits_rest() const { return !promises_.empty() && rest_.empty(); }
+  /// Takes the positions that the mesh has now as those at rest, if promises await them and all are finite. O(V).
+  void take_rest(const Placed_mesh& mesh);
   /// Forgets the positions at rest: the faces have changed.
   void forget_rest() {
     rest_.clear();
@@ -50,7 +54,6 @@ class Known_motion {
                                                   std::span<const Region_index> labels);
 
  private:
-  void keep_first(std::vector<double>& positions) const;
   std::unique_ptr<Node_bound> bound_of_points(const Placed_mesh& mesh, const Bounded_object& in_mesh);
   std::unique_ptr<Node_bound> promised_bound(std::size_t promise, const Placed_mesh& mesh,
                                              const Bounded_object& in_mesh);
