@@ -2,7 +2,9 @@
 #include "frame.h"
 
 #include <Eigen/Core>
+#include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "arrays.h"
 #include "lodestone/mesh/errors.h"
@@ -59,11 +61,15 @@ py::object points_of_frame(const Python_frame& self) {
 
 /// The two of its corners that are farthest apart.
 std::pair<Point, Point> ends_of(const Intersection_points& corners) {
+  // Squares would overflow or vanish at sizes beyond 10^+-154.
+  const auto distance = [](const Point& p, const Point& q) {
+    return std::hypot(p.x() - q.x(), p.y() - q.y(), p.z() - q.z());
+  };
   std::pair<Point, Point> ends{corners.front(), corners.back()};
-  double longest = CGAL::to_double(CGAL::squared_distance(ends.first, ends.second));
+  double longest = distance(ends.first, ends.second);
   for (const auto& p : corners)
     for (const auto& q : corners)
-      if (const double length = CGAL::squared_distance(p, q); length > longest) longest = length, ends = {p, q};
+      if (const double length = distance(p, q); length > longest) longest = length, ends = {p, q};
   return ends;
 }
 

@@ -173,6 +173,13 @@ def test_what_was_not_asked_for_is_none():
     assert pair.parting is None and pair.patches == [] and pair.containment == "none"
 
 
+@pytest.mark.parametrize("scale", [1, 2.0**-540, 2.0**520])
+def test_segments_of_faces_in_a_plane_are_their_longest_at_any_size(scale):
+    triangle = Mesh(np.array([[1, -3, 3], [1, -1, 3], [1, -2, -1]]) * scale, [[0, 1, 2]])
+    pair = lodestone.find_collisions(triangle, (triangle.vertices.copy(), triangle.faces), contact_points=True)
+    assert np.linalg.norm(pair.segments[0][1] / scale - pair.segments[0][0] / scale) == pytest.approx(17**0.5)
+
+
 def test_points_and_normals_of_two_crossing_triangles():
     flat = Mesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
     upright = Mesh([[1, 1, -1], [1, 1, 1], [1, -3, 0]], [[0, 1, 2]])
