@@ -137,12 +137,22 @@ Animation_output_options output_options(const Animation& animation, const Conver
 }
 
 /// Looks at the first frame that is written. The others mostly are as far from the origin, and reading each of them
-/// again could take long.
-Float_rounding rounding_of(const Convert_command& command, const Animation& animation, std::size_t first_frame) {
+/// again could take long. In glTF, where they are differences to the first, at some of them.
+Float_rounding rounding_of(const Convert_command& command, const Animation& animation,
+                           std::span<const std::size_t> frames) {
   if (command.quiet || !stores_floats(command.output)) return {};
-  std::vector<Point> points(animation.vertices);
-  animation.motion.pose(first_frame, points);
-  return float_rounding(points, animation.faces);
+  std::vector<Point> first(animation.vertices), points(animation.vertices);
+  animation.motion.pose(frames.front(), first);
+  Float_rounding coarsest = float_rounding(first, animation.faces);
+  if (!is_gltf(command.output)) return coarsest;
+  constexpr std::size_t most = 8;
+  const std::size_t others = frames.size() - 1, looks = std::min(most, others);
+  for (std::size_t look = 1; look <= looks; ++look) {
+    animation.motion.pose(frames[others * look / looks], points);
+    const auto found = float_rounding(points, first, animation.faces);
+    if (found.share() > coarsest.share()) coarsest = found;
+  }
+  return coarsest;
 }
 
 void note_rounding(const Convert_command& command, const Float_rounding& rounding) {
@@ -150,7 +160,7 @@ void note_rounding(const Convert_command& command, const Float_rounding& roundin
     note(fmt::format(
         "{}: coordinates are rounded to floats: by up to {:.2g}, which is {:.2g} % of the mesh's size; move "
         "it to the origin first",
-        command.output.string(), rounding.largest, 100 * rounding.largest / rounding.diagonal));
+        command.output.string(), rounding.largest, 100 * rounding.share()));
 }
 
 /// The user of a mesh, a sequence of meshes or a point cache has a mesh file with the faces, unless they were edited.
@@ -222,7 +232,7 @@ int run(const Convert_command& command) {
   const auto animation = edited(original, command, farthest);
   auto options = output_options(animation, command);
   check_input_is_kept(command, animation, options.frames.size());
-  const auto rounding = rounding_of(command, animation, options.frames.front());
+  const auto rounding = rounding_of(command, animation, options.frames);
   {
     Progress_bar progress("convert", command.quiet);
     options.progress = [&](std::size_t done, std::size_t of) { progress(done, of); };

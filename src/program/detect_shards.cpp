@@ -85,11 +85,12 @@ void check_shard_options(const Detect_command& command) {
 
 int run_shard(const Detect_command& command) {
   const Shard& shard = *command.shard;
+  const bool tells = !command.quiet && !command.json;
   Detect_run scene_run(command);
   const Shard_folder folder(command.out, work_of(command.words, shard.count, scene_run), Shard_use::make);
   const auto frames = shard.neighbours(scene_run.frames());
   if (folder.is_done(shard.index)) {
-    if (!command.quiet) fmt::print("shard {} of {} is done already\n", shard.index, shard.count);
+    if (tells) fmt::print("shard {} of {} is done already\n", shard.index, shard.count);
     return exit_code::success;
   }
   Shard_writer writer(folder, shard.index);
@@ -99,7 +100,7 @@ int run_shard(const Detect_command& command) {
     more["objects"] = scene_run.objects();
   }
   writer.commit(more);
-  if (!command.quiet)
+  if (tells)
     fmt::print("shard {} of {}: {} of {}, in {}\n", shard.index, shard.count, frames.size(),
                counted(scene_run.frames(), "frame"), printable(folder.file(shard.index).string()));
   return exit_code::success;

@@ -26,8 +26,8 @@ constexpr std::size_t most_rows = 20;
 
 /// The standard input is kept in a file that is gone when a summary is read.
 std::string shown_file(const std::filesystem::path& file) {
-  const std::string text = file.lexically_normal().string();
-  return naming_standard_input(text) == text ? text : "-";
+  const std::string text = file.string();
+  return naming_standard_input(text) == text ? file.lexically_normal().string() : "-";
 }
 
 Json object_summary_json(const Run_subject& subject, Object_id id) {

@@ -11,19 +11,38 @@
 
 namespace lodestone {
 
-Float_rounding float_rounding(std::span<const Point> points, std::span<const Corners> faces) {
+namespace {
+
+/// @param stored  the coordinate of a vertex that is read back
+template <class Stored>
+Float_rounding rounding_of(std::span<const Point> points, std::span<const Corners> faces, const Stored& stored) {
   Box box;
   double largest = 0;
-  const auto add = [&](const Point& point) {
-    box.extend(coordinates(point));
+  const auto add = [&](std::size_t vertex) {
+    box.extend(coordinates(points[vertex]));
     for (int axis = 0; axis < 3; ++axis)
-      largest = std::max(largest, std::abs(static_cast<double>(static_cast<float>(point[axis])) - point[axis]));
+      largest = std::max(largest, std::abs(static_cast<double>(stored(vertex, axis)) - points[vertex][axis]));
   };
   for (const auto& face : faces)
-    for (const auto vertex : face) add(points[vertex]);
+    for (const auto vertex : face) add(vertex);
   if (faces.empty())
-    for (const Point& point : points) add(point);
+    for (std::size_t vertex = 0; vertex < points.size(); ++vertex) add(vertex);
   return {.largest = largest, .diagonal = box.isEmpty() ? 0 : box.diagonal().norm()};
+}
+
+}  // namespace
+
+Float_rounding float_rounding(std::span<const Point> points, std::span<const Corners> faces) {
+  return rounding_of(points, faces,
+                     [&](std::size_t vertex, int axis) { return static_cast<float>(points[vertex][axis]); });
+}
+
+Float_rounding float_rounding(std::span<const Point> points, std::span<const Point> first,
+                              std::span<const Corners> faces) {
+  return rounding_of(points, faces, [&](std::size_t vertex, int axis) {
+    const auto base = static_cast<float>(first[vertex][axis]), found = static_cast<float>(points[vertex][axis]);
+    return base + static_cast<float>(static_cast<double>(found) - static_cast<double>(base));
+  });
 }
 
 bool stores_floats(const std::filesystem::path& output) {

@@ -87,7 +87,7 @@ std::vector<std::string> merging_words(const Merge_command& command) {
     throw Bad_shard((folder.results() / "shards").string() + ": its shards are of neither detect nor an experiment");
   words.insert(words.end(), {"--out", folder.results().string(), "--merge-shards"});
   if (command.quiet) {
-    std::erase(words, "--json");
+    for (const char* table : {"--json", "--all-rows"}) std::erase(words, table);
     words.emplace_back("--quiet");
   }
   if (const auto& begun = folder.manifest()["folder"]; begun.is_string() && is_directory(std::filesystem::path(begun)))

@@ -63,7 +63,8 @@ std::string shell_words(const std::vector<std::string>& words) {
 }
 
 std::string_view quietly(const std::vector<std::string>& words) {
-  return std::ranges::find(words, "--json") == words.end() ? " --quiet" : "";
+  const auto excludes = [](const std::string& word) { return word == "--json" || word == "--all-rows"; };
+  return std::ranges::none_of(words, excludes) ? " --quiet" : "";
 }
 
 std::string array_script(const Slurm_job& job) {

@@ -97,6 +97,41 @@ TEST_F(Convert, keeps_when_the_first_frame_is) {
   EXPECT_EQ(heights("a.glb"), all);
 }
 
+TEST_F(Convert, keeps_the_time_of_a_single_frame) {
+  write_animation(path("one.mdd"), read_animation(path("f3.off")), {.start = 2.5});
+  EXPECT_EQ(read_animation(path("one.mdd")).motion.start, 2.5);
+  convert("one.mdd", "a.mdd");
+  EXPECT_EQ(read_bytes(path("a.mdd")), read_bytes(path("one.mdd")));
+}
+
+TEST_F(Convert, times_that_are_equal_as_floats_are_refused) {
+  write_animation(path("late.mdd"), read_animation(path("f*.off")), {.frames_per_second = 30, .start = 1e6});
+  const auto refused = run_program({"convert", path("late.mdd"), path("a.glb"), "--mesh", path("square.off")});
+  expect_error(refused, 2, "frames 1 and 2 would be at the same time, 1000000");
+  EXPECT_FALSE(std::filesystem::exists(path("a.glb")));
+}
+
+TEST_F(Convert, says_where_differences_to_the_first_frame_are_coarse) {
+  const auto square_at = [](const std::string& x) {
+    return "OFF\n3 1 0\n" + x + ".25 0 0\n" + x + ".5 0 0\n" + x + ".25 0.3 0\n3 0 1 2\n";
+  };
+  folder.write("t0.off", square_at("1000000")),
+      folder.write("t1.off", "OFF\n3 1 0\n0.1 0 0\n0.3 0 0\n0.1 0.3 0\n3 0 1 2\n");
+  const std::string said = "coordinates are rounded to floats";
+  EXPECT_NE(run_program({"convert", path("t*.off"), path("t.glb")}).err.find(said), std::string::npos);
+  EXPECT_EQ(run_program({"convert", path("t*.off"), path("t.glb"), "--frames", "1:"}).err.find(said),
+            std::string::npos);
+}
+
+TEST_F(Convert, a_motion_that_overflows_is_an_error) {
+  folder.write("scene.json", R"({"frames": 3, "objects": [{"name": "sheet", "mesh": "square.off",
+    "place": {"scale": 1e308}, "motion": {"deform": [{"travel": {"path": "linear",
+      "way_points": [{"frame": 0, "at": [0, 0, 0]}, {"frame": 2, "at": [1.7e308, 0, 0]}]}}]}}]})");
+  const auto refused = run_program({"convert", path("scene.json#sheet"), path("a_#.obj")});
+  expect_error(refused, 3, "is not finite");
+  EXPECT_FALSE(std::filesystem::exists(path("a_0.obj")));
+}
+
 TEST_F(Convert, keeps_the_rate_of_an_object_of_a_scene) {
   convert("f*.off", "a.mdd", {"--fps", "24"});
   folder.write("scene.json", R"({"objects": [{"name": "sheet", "mesh": "square.off", "motion": {"mdd": "a.mdd"}}]})");

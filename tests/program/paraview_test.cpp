@@ -157,5 +157,15 @@ TEST_F(Paraview, a_folder_that_cannot_be_created_is_an_error) {
   expect_error(run_program({"detect", "--mode", "particles", scene.string(), "--paraview", ""}), 2, "");
 }
 
+TEST_F(Paraview, a_file_in_the_place_of_a_folder_is_noticed_before_any_result_is_there) {
+  create_directory(out);
+  folder.write("out/frames", "");
+  const auto results = folder.path() / "results";
+  expect_error(run_program({"detect", scene.string(), "--paraview", out.string(), "--out", results.string()}), 4,
+               "frames: is no folder");
+  EXPECT_FALSE(exists(results / "frames.jsonl"));
+  EXPECT_EQ(content_of(out), (std::set<std::string>{"frames"}));
+}
+
 }  // namespace
 }  // namespace lodestone::test

@@ -159,6 +159,24 @@ TEST_F(Shards, of_particles_need_a_warm_up_and_are_the_same_each_time) {
   EXPECT_EQ(frames("long"), frames("whole"));
 }
 
+TEST_F(Shards, that_were_made_for_a_long_table_can_be_merged_without_one) {
+  for (const std::size_t index : {1, 2}) make("parts", index, 2, {"--all-rows"});
+  const auto quiet = merge("parts", {"--quiet"});
+  expect_success(quiet);
+  EXPECT_EQ(quiet.out.find("leaving"), std::string::npos) << quiet.out;
+  const auto long_table = merge("parts");
+  expect_success(long_table);
+  EXPECT_NE(long_table.out.find("leaving"), std::string::npos);
+}
+
+TEST_F(Shards, of_a_run_that_prints_json_print_nothing_else) {
+  for (int time = 0; time < 2; ++time) {
+    const auto made = run_program(detect("parts", {"--json", "--shard", "1/2"}));
+    expect_success(made);
+    EXPECT_EQ(made.out, "");
+  }
+}
+
 TEST_F(Shards, more_than_there_are_frames_are_merged_too) {
   expect_success(run_program(detect("whole")));
   for (std::size_t index = 1; index <= 53; ++index) make("parts", index, 53);

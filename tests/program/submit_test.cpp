@@ -119,10 +119,13 @@ TEST_F(Submit, from_another_folder_has_its_tasks_run_where_the_shards_were_begun
   EXPECT_TRUE(exists(parts / "shards" / "2-of-2.jsonl"));
 }
 
-TEST_F(Submit, of_a_command_that_prints_json_is_not_quiet) {
-  expect_success(submit({"--shards", "2", "--dry-run"}, {"--json"}));
-  EXPECT_EQ(run(out / "slurm" / "array.sh", 2), 0);
-  EXPECT_EQ(run(out / "slurm" / "merge.sh", 0), 0);
+TEST_F(Submit, of_a_command_that_prints_json_or_a_long_table_is_not_quiet) {
+  for (const std::string table : {"--json", "--all-rows"}) {
+    std::filesystem::remove_all(out);
+    expect_success(submit({"--shards", "2", "--dry-run"}, {table}));
+    EXPECT_EQ(run(out / "slurm" / "array.sh", 2), 0) << table;
+    EXPECT_EQ(run(out / "slurm" / "merge.sh", 0), 0) << table;
+  }
 }
 
 TEST_F(Submit, makes_no_pilot_of_a_shard_without_frames) {

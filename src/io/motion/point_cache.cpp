@@ -88,7 +88,8 @@ Cache open_pc2(const fs::path& file) {
 
 // ---- MDD ----
 
-/// Sets start and frames per second from the first and last time; the times between them are ignored.
+/// Sets start and frames per second from the first and last time; the times between them are ignored. One frame alone
+/// has a start, and no rate.
 void read_mdd_times(std::ifstream& in, const fs::path& file, Point_cache& header) {
   const std::size_t frames = header.frames;
   std::array<char, sizeof(float)> raw{};
@@ -98,6 +99,7 @@ void read_mdd_times(std::ifstream& in, const fs::path& file, Point_cache& header
     if (!in.read(raw.data(), raw.size())) fail(file, "the times of the frames can no longer be read");
     ends[end] = load<float>(raw.data(), std::endian::big);
   }
+  if (frames == 1 && std::isfinite(ends[0])) header.start = ends[0];
   const double rate = static_cast<double>(frames - 1) / (ends[1] - ends[0]);
   if (!std::isfinite(rate) || !(rate > 0)) return;
   header.frames_per_second = rounded_rate(rate);

@@ -21,6 +21,7 @@
 #include "lodestone/io/files/numbered_files.h"
 #include "lodestone/io/motion/point_cache.h"
 #include "lodestone/mesh/errors.h"
+#include "mesh/is_finite.h"
 
 namespace lodestone {
 
@@ -45,6 +46,10 @@ std::span<const Point> Animation_frames::positions(std::size_t i) {
   if (options_.progress) options_.progress(done_, passes_ * size());
   ++done_;
   animation_.motion.pose(numbers_[i], positions_);
+  const auto bad = std::ranges::find_if_not(positions_, [](const Point& point) { return is_finite(point); });
+  if (bad != positions_.end())
+    throw Bad_motion(fmt::format("{}: frame {}, vertex {} (counted from 0): a coordinate is not finite",
+                                 output_.string(), numbers_[i], bad - positions_.begin()));
   return positions_;
 }
 
@@ -185,7 +190,8 @@ std::vector<fs::path> files_of(const fs::path& output, std::size_t frames) {
 }
 
 double start_at(const Motion& motion, double frames_per_second) {
-  return std::max(0.0, motion.start * motion.frames_per_second / frames_per_second);
+  const bool has_rate = motion.frames_per_second > 0;  // one frame alone has a time, and no rate
+  return std::max(0.0, has_rate ? motion.start * motion.frames_per_second / frames_per_second : motion.start);
 }
 
 void write_animation(const fs::path& output, const Animation& animation, const Animation_output_options& options) {
