@@ -386,8 +386,9 @@ class Detector {
   /// Promises something about how an object moves, in mode `certified`: see Motion_promise. The promise must outlive
   /// the object, or the detector; it may change between frames. It is about the positions of the mesh: `place` is
   /// known to the detector, and an object with positions from `update` is read as a whole. The positions of the mesh in
-  /// the next query, of whichever objects, are those at rest, unless an earlier promise about it has set them. Several promises hold together. Computed
-  /// points with joints, morph targets or other bounds of their own need no promise.
+  /// the next query, of whichever objects, are those at rest, unless an earlier promise about this object has set them.
+  /// Several promises hold together. Computed points with joints, morph targets or other bounds of their own need no
+  /// promise.
   ///
   /// The bound is made in the next query. If the promise does not fit the object, say with displacements for other
   /// regions than it has, that query throws Bad_argument, and the promise is dropped.

@@ -83,7 +83,7 @@ std::unique_ptr<const Position_source> positions_of(Placed_mesh& mesh) {
 std::vector<std::unique_ptr<Node_bound>> Known_motion::bounds(Placed_mesh& mesh, const Tree_layout& layout,
                                                               std::span<const Region_index> labels) {
   positions_in_mesh_ = std::make_unique<Mesh_positions>(mesh);
-  if (awaits_rest()) rest_ = all_of(*positions_in_mesh_);
+  if (promises_await_rest()) rest_ = all_of(*positions_in_mesh_);
   const Bounded_object in_mesh{.layout = layout, .labels = labels, .rest = rest_, .positions = *positions_in_mesh_};
   std::vector<std::unique_ptr<Node_bound>> bounds;
   if (auto own = bound_of_points(mesh, in_mesh)) bounds.push_back(std::move(own));
@@ -93,19 +93,22 @@ std::vector<std::unique_ptr<Node_bound>> Known_motion::bounds(Placed_mesh& mesh,
 }
 
 void Known_motion::take_rest(const Placed_mesh& mesh) {
-  if (!awaits_rest()) return;
+  if (!awaits_rest(mesh.mesh())) return;
   auto now = all_of(Mesh_positions(mesh));
-  if (std::ranges::all_of(now, [](double coordinate) { return std::isfinite(coordinate); })) rest_ = std::move(now);
+  if (!std::ranges::all_of(now, [](double coordinate) { return std::isfinite(coordinate); })) return;
+  if (points_await_rest(mesh.mesh())) rest_of_points_ = now;
+  if (promises_await_rest()) rest_ = std::move(now);
 }
 
 /// The bound that the points of the mesh have by themselves; null: none.
 std::unique_ptr<Node_bound> Known_motion::bound_of_points(const Placed_mesh& mesh, const Bounded_object& in_mesh) {
-  if (mesh.mesh().own_bound_needs_rest() && rest_of_points_.empty()) rest_of_points_ = all_of(*positions_in_mesh_);
+  if (points_await_rest(mesh.mesh())) rest_of_points_ = all_of(*positions_in_mesh_);
   auto bound = mesh.mesh().own_bound({in_mesh.layout, in_mesh.labels, rest_of_points_, in_mesh.positions});
   return bound ? placed(std::move(bound), mesh, in_mesh) : nullptr;
 }
 
-/// A promise that does not fit is forgotten: it would stand in the way of every query to come.
+/// A promise that does not fit is forgotten: it would stand in the way of every query to come. If it was the only one,
+/// the next one has another rest.
 std::unique_ptr<Node_bound> Known_motion::promised_bound(std::size_t promise, const Placed_mesh& mesh,
                                                          const Bounded_object& in_mesh) {
   std::unique_ptr<Node_bound> bound;
@@ -115,6 +118,7 @@ std::unique_ptr<Node_bound> Known_motion::promised_bound(std::size_t promise, co
       throw Bad_argument("its bound was made for a tree of fewer nodes");
   } catch (const Bad_argument& misfit) {
     promises_.erase(promises_.begin() + static_cast<std::ptrdiff_t>(promise));
+    if (promises_.empty()) rest_.clear();
     throw Bad_argument("a promise about " + mesh.title() + " is dropped: " + misfit.what());
   }
   return placed(std::move(bound), mesh, in_mesh);

@@ -157,10 +157,12 @@ Float_rounding rounding_of(const Convert_command& command, const Animation& anim
 
 void note_rounding(const Convert_command& command, const Float_rounding& rounding) {
   if (rounding.is_coarse())
-    note(fmt::format(
-        "{}: coordinates are rounded to floats: by up to {:.2g}, which is {:.2g} % of the mesh's size; move "
-        "it to the origin first",
-        command.output.string(), rounding.largest, 100 * rounding.share()));
+    note(fmt::format("{}: coordinates are rounded to floats: by up to {:.2g}, which is {:.2g} % of the mesh's size; {}",
+                     command.output.string(), rounding.largest, 100 * rounding.share(),
+                     rounding.of_difference
+                         ? "the frames lie far from the first, to which glTF holds differences: .pc2 holds each "
+                           "frame by itself"
+                         : "move it to the origin first"));
 }
 
 /// The user of a mesh, a sequence of meshes or a point cache has a mesh file with the faces, unless they were edited.

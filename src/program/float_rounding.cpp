@@ -39,10 +39,12 @@ Float_rounding float_rounding(std::span<const Point> points, std::span<const Cor
 
 Float_rounding float_rounding(std::span<const Point> points, std::span<const Point> first,
                               std::span<const Corners> faces) {
-  return rounding_of(points, faces, [&](std::size_t vertex, int axis) {
+  auto rounding = rounding_of(points, faces, [&](std::size_t vertex, int axis) {
     const auto base = static_cast<float>(first[vertex][axis]), found = static_cast<float>(points[vertex][axis]);
     return base + static_cast<float>(static_cast<double>(found) - static_cast<double>(base));
   });
+  rounding.of_difference = true;
+  return rounding;
 }
 
 bool stores_floats(const std::filesystem::path& output) {

@@ -10,8 +10,9 @@ namespace lodestone {
 
 /// What is lost where coordinates are written as floats.
 struct Float_rounding {
-  double largest = 0;   ///< by how much a coordinate changes at most, in units of the coordinates
-  double diagonal = 0;  ///< of the bounding box
+  double largest = 0;          ///< by how much a coordinate changes at most, in units of the coordinates
+  double diagonal = 0;         ///< of the bounding box
+  bool of_difference = false;  ///< what is written is the difference to another frame
 
   /// In times of the diagonal; 0 for a point.
   double share() const { return diagonal > 0 ? largest / diagonal : 0; }

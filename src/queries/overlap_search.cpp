@@ -107,8 +107,7 @@ bool Overlap_search::search_all(const Faces_in_box& a, const Faces_in_box& b, co
   if (overlap.isEmpty() || a.faces.empty() || b.faces.empty()) return false;
   faces_[0] = &a, faces_[1] = &b;
   const bool few = std::max(a.faces.size(), b.faces.size()) <= few_faces;
-  most_faces_ = one_is_enough_ && few && exact_tests_ < patience ? small_group_faces : group_faces;
-  most_leaf_tests_ = leaf_tests_ + most_partners * (2 + (a.faces.size() + b.faces.size()) / most_faces_);
+  group_by(one_is_enough_ && few && exact_tests_ < patience ? small_group_faces : group_faces);
   round_in(overlap);
   Pair_of_parts whole{box_faces(0), box_faces(1)};
   return search(whole, {true, true});
@@ -295,6 +294,13 @@ bool Overlap_search::test(const Pair_of_parts& parts) {
   return false;
 }
 
+/// From now on lists are halved until they have no more faces than this.
+void Overlap_search::group_by(std::size_t most_faces) {
+  most_faces_ = most_faces;
+  most_leaf_tests_ =
+      leaf_tests_ + most_partners * (2 + (faces_[0]->faces.size() + faces_[1]->faces.size()) / most_faces);
+}
+
 bool Overlap_search::gives_up() {
   has_given_up_ = leaf_tests_ >= most_leaf_tests_;
   return has_given_up_;
@@ -305,7 +311,7 @@ bool Overlap_search::gives_up() {
 /// @return whether the search is over
 bool Overlap_search::test_few(const Pair_of_parts& parts) {
   ++leaf_tests_;
-  if (exact_tests_ >= patience) most_faces_ = group_faces;
+  if (exact_tests_ >= patience && most_faces_ < group_faces) group_by(group_faces);
   for (const Rounded_box& box_a : std::span(stacks_[0].at(parts[0].begin), parts[0].count))
     for (const Rounded_box& box_b : std::span(stacks_[1].at(parts[1].begin), parts[1].count))
       if (meet(box_a, box_b) && test_pair(box_a.index, box_b.index, no_crossing)) return true;

@@ -495,6 +495,33 @@ TEST(Promises_about_rest, take_the_first_query_whichever_objects_it_is_about) {
   }
 }
 
+struct Never_fits {
+  Promised_boxes bound(const Bounded_object&) const { throw Bad_argument("of another object"); }
+};
+
+TEST(Promises_about_rest, that_are_dropped_leave_no_rest_to_the_next) {
+  Surface_mesh a = icosphere(3), b = icosphere(3);
+  shift(b, 50);
+  double moved = 0;
+  const Box_promise promise([&](Region_index, const Aabb& rest) {
+    Aabb box = rest;
+    box.low[0] += moved - 1e-9, box.high[0] += moved + 1e-9;
+    return box;
+  });
+  const Never_fits misfit;
+  Detector certified(in_mode(Mode::certified, {}));
+  for (const auto* mesh : {&a, &b}) certified.add(*mesh);
+  certified.promise(0, misfit);
+  EXPECT_THROW(certified.detect(), Bad_argument);
+  shift(a, 8);
+  certified.promise(0, promise);
+  certified.detect();
+  shift(a, 1), moved = 1, shift(b, -40.5);
+  const Frame& found = certified.detect();
+  EXPECT_TRUE(found.collides());
+  EXPECT_EQ(found.statistics.violations, 0U);
+}
+
 /// A query about others does not fail because of it.
 TEST(Promises_about_rest, wait_until_the_mesh_can_be_read) {
   Surface_mesh a = icosphere(3), b = icosphere(3), c = icosphere(2);

@@ -98,6 +98,28 @@ TEST(Own_stretch, is_watched_wherever_the_object_is_placed) {
   }
 }
 
+TEST(Own_lipschitz, is_about_the_first_query_whichever_objects_it_is_about) {
+  const Surface_mesh a = potato(12, 1);
+  Surface_mesh b = potato(12, 2), c = potato(6, 3);
+  shift(b, 50), shift(c, 90);
+  Promised_points<Lipschitz_promise> points(a);
+  const auto scale = [&points](double factor) {
+    for (double& coordinate : points.now) coordinate *= factor;
+    ++points.number;
+  };
+  Detector detector({.mode = Mode::certified});
+  detector.add(a, point_map(a, points));
+  for (const auto* mesh : {&b, &c}) detector.add(*mesh);
+  detector.detect(1, 2);
+  scale(0.5), points.promise.set_constant(0.5, 1e-9);
+  EXPECT_EQ(detector.detect().statistics.violations, 0U);
+  scale(2), points.promise.set_constant(1, 1e-9);  // as at rest
+  shift(b, -50);
+  const Frame& found = detector.detect();
+  EXPECT_TRUE(found.collides());
+  EXPECT_EQ(found.statistics.violations, 0U);
+}
+
 TEST(Own_displacement, is_tight_again_where_leaves_are_read) {
   const Surface_mesh a = icosphere(40), b = icosphere(40);  // of radius 1
   Promised_points<Displacement_promise> points(a);

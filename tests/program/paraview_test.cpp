@@ -162,7 +162,7 @@ TEST_F(Paraview, a_file_in_the_place_of_a_folder_is_noticed_before_any_result_is
   folder.write("out/frames", "");
   const auto results = folder.path() / "results";
   expect_error(run_program({"detect", scene.string(), "--paraview", out.string(), "--out", results.string()}), 4,
-               "frames: is no folder");
+               "frames: is not a folder");
   EXPECT_FALSE(exists(results / "frames.jsonl"));
   EXPECT_EQ(content_of(out), (std::set<std::string>{"frames"}));
 }

@@ -76,7 +76,7 @@ class Displacement_bound {
 /// A promise: how far a vertex can have moved since the promise was last changed. A model of Motion_promise.
 ///
 /// The caller says so with `move`, before a query asks about the new positions. Distances add up. What was said before
-/// a bound was made does not count for it: its first boxes are those at rest.
+/// a bound was made does not count for it: its first boxes are around the vertices where they are then.
 ///
 /// A rigid frame takes large motions out of the promise. With a frame, a vertex is at p = frame * q, and it is q that
 /// moves by no more than the distance. A body that spins has a frame that spins, and distance 0 if it does not deform.

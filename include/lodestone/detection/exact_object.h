@@ -16,6 +16,7 @@
 #include "lodestone/detection/known_motion.h"
 #include "lodestone/detection/placed_mesh.h"
 #include "lodestone/detection/saved_object.h"
+#include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/joined_vertices.h"
 #include "lodestone/tree/tree_surface.h"
 
@@ -148,20 +149,20 @@ class Exact_object {
     refreshed_in_ = 0;
     bounded_.reset();
   }
-  /// Whether a promise awaits the positions at rest.
-  bool awaits_rest() const { return motion_.awaits_rest(); }
-  /// Takes the positions that the mesh has now as those at rest, if a promise awaits them. Not those of a mesh that has
-  /// been changed since it was numbered.
-  void take_rest_of_promises() {
+  /// Whether a promise, or computed points, await the positions at rest.
+  bool awaits_rest() const { return motion_.awaits_rest(mesh_.mesh()); }
+  /// Takes the positions that the mesh has now as those at rest, where they are awaited. Not those of a mesh that cannot
+  /// be read, as it has been changed since it was numbered.
+  void take_awaited_rest() {
     try {
       mesh().check_connectivity(title());
-    } catch (const Error&) {
-      return;  // a query about this object will say so
+      if (motion_.has_another_shape(mesh())) bounded_.reset();
+      motion_.take_rest(mesh_);
+    } catch (const Error&) {  // a query about this object will say so
     }
-    motion_.take_rest(mesh_);
   }
-  /// Makes the bounds of a surface that has just been refitted. The first time, promises take its positions as those at
-  /// rest.
+  /// Makes the bounds of a surface that has just been refitted. Promises that still await positions at rest take those
+  /// that the mesh has now.
   /// @param compare_all  see Bounded_surface
   void make_bounds(bool compare_all, Workers& workers);
 

@@ -39,7 +39,9 @@ class Exact_objects {
       ids_.push_back(size());
       try {
         objects_.push_back(std::make_unique<Object>(ids_.back(), watch(workers_), options));
+        awaiting_rest_.push_back(ids_.back());
       } catch (...) {
+        objects_.resize(ids_.back());
         ids_.pop_back();
         throw;
       }
@@ -48,13 +50,13 @@ class Exact_objects {
   /// Reads the faces of the mesh anew.
   /// @throws Bad_mesh, Bad_argument  the object stays as it was
   void rebuild(Object_id id, std::span<const std::uint32_t> file_vertex) {
+    awaiting_rest_.push_back(id);
     timed(work_.seconds.build, [&] { objects_[id]->rebuild(file_vertex, workers_); });
-    if (objects_[id]->awaits_rest()) awaiting_rest_.push_back(id);
   }
   /// The same where it is known which faces have changed.
   void rebuild(Object_id id, const Changed_faces& changed) {
+    awaiting_rest_.push_back(id);
     timed(work_.seconds.build, [&] { objects_[id]->rebuild(changed, workers_); });
-    if (objects_[id]->awaits_rest()) awaiting_rest_.push_back(id);
   }
 
   /// Writes what was built of an object, which is built first if it has not been.
@@ -137,7 +139,7 @@ class Exact_objects {
 
  private:
   void start_on_demand(std::span<const Object_id> ids);
-  void take_rest_of_promises();
+  void take_awaited_rest();
   void refit_built(std::span<const Object_id> ids);
   void build_new(std::span<const Object_id> ids);
   void rebuild_loose(std::span<const Object_id> ids);
@@ -153,7 +155,7 @@ class Exact_objects {
   Workers& workers_;
   std::vector<std::unique_ptr<Object>> objects_;  ///< null: removed
   std::vector<Object_id> ids_;                    ///< of the others
-  std::vector<Object_id> awaiting_rest_;          ///< those with promises whose positions at rest are to be taken
+  std::vector<Object_id> awaiting_rest_;          ///< those that may await their positions at rest
   Frame_statistics work_;
   std::shared_ptr<Position_hold> hold_ = std::make_shared<Position_hold>();
 
@@ -168,7 +170,7 @@ void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
   work_.seconds.refit = 0;
   work_.vertices_read = 0;
   whole_.clear();
-  if (!awaiting_rest_.empty()) take_rest_of_promises();
+  if (!awaiting_rest_.empty()) timed(work_.seconds.build, [&] { take_awaited_rest(); });
   for (const auto id : ids) {
     if (objects_[id]->is_refreshed(hold_->number())) {
       objects_[id]->begin_query_of_refreshed();
@@ -194,9 +196,10 @@ void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
 
 /// Also of objects that the query is not about: a promise must not depend on whom the caller asks about first.
 template <Bounding_volume Volume>
-void Exact_objects<Volume>::take_rest_of_promises() {
+void Exact_objects<Volume>::take_awaited_rest() {
+  if (options_.mode != Mode::certified) return awaiting_rest_.clear();
   std::erase_if(awaiting_rest_, [this](Object_id id) {
-    if (objects_[id]) objects_[id]->take_rest_of_promises();
+    if (objects_[id] && objects_[id]->awaits_rest()) objects_[id]->take_awaited_rest();
     return !objects_[id] || !objects_[id]->awaits_rest();
   });
 }

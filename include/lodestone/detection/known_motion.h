@@ -26,9 +26,9 @@ class Known_motion {
  public:
   /// Another promise.
   void promise(Make_bound make) { promises_.push_back(std::move(make)); }
-  /// Whether a promise is about positions at rest that are not known yet.
-  bool awaits_rest() const { return !promises_.empty() && rest_.empty(); }
-  /// Takes the positions that the mesh has now as those at rest, if promises await them and all are finite. O(V).
+  /// Whether a promise, or the points themselves, are about positions at rest that are not known yet.
+  bool awaits_rest(const Watched_mesh& mesh) const { return promises_await_rest() || points_await_rest(mesh); }
+  /// Takes the positions that the mesh has now as those at rest, where they are awaited, if all are finite. O(V).
   void take_rest(const Placed_mesh& mesh);
   /// Forgets the positions at rest: the faces have changed.
   void forget_rest() {
@@ -46,7 +46,7 @@ class Known_motion {
   /// Whether bounds are about the points as they are.
   bool has_the_shape_of(const Watched_mesh& mesh) const { return shape_number_ == mesh.shape_number(); }
 
-  /// The bounds of an object. The first time, the positions that the mesh has now are those at rest.
+  /// The bounds of an object. Where positions at rest are still awaited, they are those that the mesh has now.
   /// @param mesh    must outlive the result; so must this
   /// @param labels  the region of each vertex; none: there are no regions
   /// @throws Bad_argument  a promise does not fit, and is forgotten
@@ -54,6 +54,10 @@ class Known_motion {
                                                   std::span<const Region_index> labels);
 
  private:
+  bool promises_await_rest() const { return !promises_.empty() && rest_.empty(); }
+  bool points_await_rest(const Watched_mesh& mesh) const {
+    return rest_of_points_.empty() && mesh.own_bound_needs_rest();
+  }
   std::unique_ptr<Node_bound> bound_of_points(const Placed_mesh& mesh, const Bounded_object& in_mesh);
   std::unique_ptr<Node_bound> promised_bound(std::size_t promise, const Placed_mesh& mesh,
                                              const Bounded_object& in_mesh);

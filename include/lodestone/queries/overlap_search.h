@@ -73,8 +73,8 @@ class Overlap_search {
     std::size_t top_ = 0, capacity_ = 0;
   };
 
-  /// What each thread keeps from one search to the next: some 200 kB, and two stacks of a large page at most. To get
-  /// this memory from the system can take longer than the search.
+  /// What each thread keeps from one search to the next: some 200 kB, and two stacks, each of at most a large page. To
+  /// get this memory from the system can take longer than the search.
   struct Kept {
     Face_group_filter filter;
     Stack stacks[2];
@@ -98,6 +98,7 @@ class Overlap_search {
   Part take_median(int side, Part& whole, int axis);
   bool test(const Pair_of_parts& parts);
   bool test_few(const Pair_of_parts& parts);
+  void group_by(std::size_t most_faces);
   bool gives_up();
   bool test_pair(std::uint32_t a, std::uint32_t b, Crossing likely);
 

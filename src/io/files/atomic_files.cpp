@@ -36,7 +36,7 @@ Atomic_file Atomic_files::open(const fs::path& name) {
   check_replaceable(target);
   std::error_code error;
   if (const auto folder = target.parent_path(); fs::exists(folder, error) && !fs::is_directory(folder, error))
-    throw Bad_output(folder.string() + ": is no folder, which files are to be written into");
+    throw Bad_output(folder.string() + ": is not a folder, but files are to be written into it");
   names_.push_back(name);
   return {hidden_ / name, folder_ / name};
 }

@@ -95,10 +95,10 @@ void Gltf_writer::measure() {
   if (frames_.size() > most_gltf_frames)
     throw Bad_argument(fmt::format("glTF output has at most {} frames, found {}", most_gltf_frames, frames_.size()));
   for (std::size_t frame = 1; frame < frames_.size(); ++frame)
-    if (!(frames_.time(frame) > frames_.time(frame - 1)))
+    if (!(frames_.time(frame) > frames_.time(frame - 1)) || !std::isfinite(frames_.time(frame)))
       throw Bad_argument(fmt::format(
-          "glTF holds times as floats: frames {} and {} would be at the same time, {} s; start at an earlier time",
-          frame - 1, frame, frames_.time(frame)));
+          "glTF holds times as floats: frames {} and {} would be at {} and {} s, but must follow each other", frame - 1,
+          frame, frames_.time(frame - 1), frames_.time(frame)));
   ranges_.resize(frames_.size());
   for (std::size_t frame = 0; frame < frames_.size(); ++frame) {
     const auto found = frames_.floats(frame);
