@@ -467,85 +467,73 @@ TEST(Certified, a_bound_that_is_made_while_the_mesh_is_not_finite_hides_nothing_
   }
 }
 
-/// Nobody has asked about the object that promises when it is at rest.
-TEST(Promises_about_rest, take_the_first_query_whichever_objects_it_is_about) {
-  for (const bool is_rebuilt : {false, true}) {
-    Surface_mesh a = icosphere(3), b = icosphere(3), c = icosphere(2);
+/// A body that moves along x, as it promises, towards another, and a third one.
+struct Promises_about_rest : testing::Test {
+  Surface_mesh a = icosphere(3), b = icosphere(3), c = icosphere(2);
+  double moved = 0;  ///< since a was at rest
+  const Box_promise promise{[this](Region_index, const Aabb& rest) {
+    Aabb box = rest;
+    box.low[0] += moved - 1e-9, box.high[0] += moved + 1e-9;
+    return box;
+  }};
+  Detector<> certified{in_mode(Mode::certified, {})};
+
+  Promises_about_rest() {
     shift(b, 50), shift(c, 90);
-    double moved = 0;
-    const Box_promise promise([&](Region_index, const Aabb& rest) {
-      Aabb box = rest;
-      box.low[0] += moved - 1e-9, box.high[0] += moved + 1e-9;
-      return box;
-    });
-    Detector certified(in_mode(Mode::certified, {}));
     for (const auto* mesh : {&a, &b, &c}) certified.add(*mesh);
-    certified.promise(0, promise);
-    certified.detect(1, 2);
-    if (is_rebuilt) {
-      certified.rebuild(0);
-      EXPECT_TRUE(certified.first_hit(1, Ray{.origin = {40, 0.1, 0.1}, .direction = {1, 0, 0}}));
-    }
-    shift(a, 8), moved = 8;
+  }
+  void expect_true_promise_and_contact() {
+    shift(a, 8), moved += 8;
     EXPECT_FALSE(certified.detect().collides());
     shift(b, -41.5);
     const Frame& found = certified.detect();
     EXPECT_TRUE(found.collides());
     EXPECT_EQ(found.statistics.violations, 0U);
   }
+};
+
+/// Nobody has asked about the body that promises when it is at rest.
+TEST_F(Promises_about_rest, take_the_first_query_whichever_objects_it_is_about) {
+  certified.promise(0, promise);
+  certified.detect(1, 2);
+  expect_true_promise_and_contact();
+}
+
+TEST_F(Promises_about_rest, take_another_one_after_a_rebuild) {
+  certified.promise(0, promise);
+  certified.detect();
+  shift(a, -3);
+  certified.rebuild(0);
+  EXPECT_TRUE(certified.first_hit(1, Ray{.origin = {40, 0.1, 0.1}, .direction = {1, 0, 0}}));
+  shift(b, -3);
+  expect_true_promise_and_contact();
 }
 
 struct Never_fits {
   Promised_boxes bound(const Bounded_object&) const { throw Bad_argument("of another object"); }
 };
 
-TEST(Promises_about_rest, that_are_dropped_leave_no_rest_to_the_next) {
-  Surface_mesh a = icosphere(3), b = icosphere(3);
-  shift(b, 50);
-  double moved = 0;
-  const Box_promise promise([&](Region_index, const Aabb& rest) {
-    Aabb box = rest;
-    box.low[0] += moved - 1e-9, box.high[0] += moved + 1e-9;
-    return box;
-  });
+TEST_F(Promises_about_rest, that_are_dropped_leave_no_rest_to_the_next) {
   const Never_fits misfit;
-  Detector certified(in_mode(Mode::certified, {}));
-  for (const auto* mesh : {&a, &b}) certified.add(*mesh);
   certified.promise(0, misfit);
   EXPECT_THROW(certified.detect(), Bad_argument);
-  shift(a, 8);
+  shift(a, -3), shift(b, -3);
   certified.promise(0, promise);
   certified.detect();
-  shift(a, 1), moved = 1, shift(b, -40.5);
-  const Frame& found = certified.detect();
-  EXPECT_TRUE(found.collides());
-  EXPECT_EQ(found.statistics.violations, 0U);
+  expect_true_promise_and_contact();
 }
 
 /// A query about others does not fail because of it.
-TEST(Promises_about_rest, wait_until_the_mesh_can_be_read) {
-  Surface_mesh a = icosphere(3), b = icosphere(3), c = icosphere(2);
-  shift(b, 50), shift(c, 90);
-  double moved = 0;
-  const Box_promise promise([&](Region_index, const Aabb& rest) {
-    Aabb box = rest;
-    box.low[0] += moved - 1e-9, box.high[0] += moved + 1e-9;
-    return box;
-  });
-  Detector certified(in_mode(Mode::certified, {}));
-  for (const auto* mesh : {&a, &b, &c}) certified.add(*mesh);
+TEST_F(Promises_about_rest, wait_until_the_mesh_can_be_read) {
   certified.promise(0, promise);
-  const Point whole = a.point(Surface_mesh::Vertex_index(0));
-  a.point(Surface_mesh::Vertex_index(0)) = Point(std::numeric_limits<double>::quiet_NaN(), 0, 0);
+  const Surface_mesh::Vertex_index first(0);
+  const Point whole = a.point(first);
+  a.point(first) = Point(std::numeric_limits<double>::quiet_NaN(), 0, 0);
   EXPECT_FALSE(certified.detect(1, 2).collides());
-  a.point(Surface_mesh::Vertex_index(0)) = whole;
-  shift(a, 3);
+  a.point(first) = whole;
+  shift(a, -3), shift(b, -3);
   EXPECT_FALSE(certified.detect(1, 2).collides());  // at rest now
-  shift(a, 5), moved = 5;
-  certified.detect();
-  shift(b, -41.5);
-  EXPECT_TRUE(certified.detect().collides());
-  EXPECT_EQ(certified.detect().statistics.violations, 0U);
+  expect_true_promise_and_contact();
 }
 
 }  // namespace
