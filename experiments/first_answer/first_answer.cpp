@@ -36,10 +36,10 @@ Chosen chosen(const std::vector<std::string>& only) {
     else if (size != once_sizes().end())
       chosen.sizes.push_back(*size);
     else
-      throw Bad_argument(
-          fmt::format("--only: '{}' is none of far, touching, tenth, deep, inside, and none of 1280, "
-                      "5120, 50000, 499280, 1997120 triangles",
-                      name));
+      throw Bad_argument(fmt::format(
+          "--only: '{}' is none of far, beside, touching, tenth, deep, inside, and none of 1280, 5120, 20480, "
+          "50000, 499280, 1997120 triangles",
+          name));
   }
   if (chosen.kinds.empty()) chosen.kinds = once_kinds();
   if (chosen.sizes.empty()) std::ranges::copy_if(once_sizes(), std::back_inserter(chosen.sizes), &Once_size::published);

@@ -22,10 +22,11 @@ struct Once_scene {
 /// Where the second sphere is, and in which size.
 struct Once_kind {
   std::string name;
-  double distance;  ///< of the centres, in radii of the first
-  double size;      ///< of the second, in those of the first
+  Kernel::Vector_3 centre;  ///< of the second, in radii of the first, whose centre is the origin
+  double size;              ///< of the second, in those of the first
 };
-/// Far apart; overlapping by half a percent, a tenth and 85 % of the diameter; the second inside the first.
+/// Far apart; beside each other, so that their boxes overlap, but they do not; overlapping by half a percent, a tenth
+/// and 85 % of the diameter; the second inside the first.
 const std::vector<Once_kind>& once_kinds();
 
 /// Frequencies of the icospheres: 20 frequency^2 triangles.

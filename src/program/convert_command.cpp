@@ -160,8 +160,8 @@ void note_rounding(const Convert_command& command, const Float_rounding& roundin
     note(fmt::format("{}: coordinates are rounded to floats: by up to {:.2g}, which is {:.2g} % of the mesh's size; {}",
                      command.output.string(), rounding.largest, 100 * rounding.share(),
                      rounding.of_difference
-                         ? "the frames lie far from the first, to which glTF holds differences: .pc2 holds each "
-                           "frame by itself"
+                         ? "a frame lies far from the first one, and glTF holds the difference; .pc2 holds each frame "
+                           "by itself"
                          : "move it to the origin first"));
 }
 

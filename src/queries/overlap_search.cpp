@@ -55,12 +55,12 @@ std::optional<Contact_summary> Overlap_search::run(const Faces_in_box& a, const 
   } else {
     Kept& kept = kept_of_thread();
     filter_ = &kept.filter, stacks_ = kept.stacks;
+    const Emptied when_done{stacks_};
     filter_->begin(a.coordinates, to_aabb(box_a), b.coordinates, to_aabb(box_b));
     const Box overlap = box_a.intersection(box_b);
     const bool sliced = one_is_enough_ && std::min(a.faces.size(), b.faces.size()) > few_faces;
     const bool in_slice = sliced && search_slice(a, b, overlap);
     if (!in_slice) search_all(a, b, overlap);
-    for (Stack& stack : kept.stacks) stack.clear();
   }
   if (has_given_up_) return std::nullopt;
   const Contact_summary summary{.found = found.size() > first, .leaf_tests = leaf_tests_, .exact_tests = exact_tests_};

@@ -2,10 +2,16 @@
 // Each allocation of each call of a detector fails once.
 #include <gtest/gtest.h>
 
+#include <new>
+#include <thread>
 #include <vector>
 
 #include "lodestone/bounds/displacement_bound.h"
+#include "lodestone/find_collisions.h"
+#include "lodestone/io/shapes/shapes.h"
+#include "memory/failing_memory.h"
 #include "memory/memory_trial.h"
+#include "support/test_meshes.h"
 
 namespace lodestone::test {
 namespace {
@@ -193,6 +199,27 @@ TEST(Out_of_memory, in_a_query_of_rays_or_points_leaves_a_detector_whose_next_fr
   expect_query_to_survive([&](Trial& trial) { trial.detector.all_hits(0, rays.front()); });
   expect_query_to_survive([&](Trial& trial) { trial.detector.closest_points(0, points); });
   expect_query_to_survive([&](Trial& trial) { trial.detector.point_sides(0, points); });
+}
+
+/// In a new thread each time, which keeps nothing of earlier calls.
+TEST(Out_of_memory, in_one_call_leaves_the_next_one_right) {
+  const Surface_mesh a = icosphere(16);
+  Surface_mesh b = icosphere(16);
+  shift(b, 0.3, 0.01, 0.02);
+  const auto expected = find_collisions(a, b).faces;
+  std::size_t failures = 0;
+  for (bool ran_out = true; ran_out; failures += ran_out ? 1 : 0)
+    std::thread([&] {
+      fail_allocation(failures);
+      try {
+        find_collisions(a, b);
+      } catch (const std::bad_alloc&) {
+      }
+      ran_out = allocation_failed();
+      fail_allocation(never);
+      EXPECT_EQ(find_collisions(a, b).faces, expected);
+    }).join();
+  EXPECT_GT(failures, 20U);
 }
 
 }  // namespace

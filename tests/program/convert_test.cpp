@@ -108,6 +108,8 @@ TEST_F(Convert, times_that_are_equal_as_floats_are_refused) {
   write_animation(path("late.mdd"), read_animation(path("f*.off")), {.frames_per_second = 30, .start = 1e6});
   const auto refused = run_program({"convert", path("late.mdd"), path("a.glb"), "--mesh", path("square.off")});
   expect_error(refused, 2, "would be at");
+  EXPECT_THROW(write_animation(path("a.glb"), read_animation(path("f*.off")), {.frames_per_second = 1e-40}),
+               Bad_argument);
   EXPECT_FALSE(std::filesystem::exists(path("a.glb")));
 }
 
@@ -115,8 +117,8 @@ TEST_F(Convert, says_where_differences_to_the_first_frame_are_coarse) {
   const auto square_at = [](const std::string& x) {
     return "OFF\n3 1 0\n" + x + ".25 0 0\n" + x + ".5 0 0\n" + x + ".25 0.3 0\n3 0 1 2\n";
   };
-  folder.write("t0.off", square_at("1000000")),
-      folder.write("t1.off", "OFF\n3 1 0\n0.1 0 0\n0.3 0 0\n0.1 0.3 0\n3 0 1 2\n");
+  folder.write("t0.off", square_at("1000000"));
+  folder.write("t1.off", "OFF\n3 1 0\n0.1 0 0\n0.3 0 0\n0.1 0.3 0\n3 0 1 2\n");
   const std::string said = "coordinates are rounded to floats";
   EXPECT_NE(run_program({"convert", path("t*.off"), path("t.glb")}).err.find(said), std::string::npos);
   EXPECT_EQ(run_program({"convert", path("t*.off"), path("t.glb"), "--frames", "1:"}).err.find(said),

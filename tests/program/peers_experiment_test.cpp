@@ -61,7 +61,7 @@ TEST_F(Peers_experiment, writes_the_cost_of_first_answers) {
   }
   EXPECT_NE(read_bytes(out / "first_answer.md").find("## tenth, 1280 triangles each"), std::string::npos);
   expect_error(run_program({"experiment", "first_answer", "--only", "near", "--out", out.string()}), 2,
-               "far, touching");
+               "far, beside, touching");
 }
 
 TEST_F(Peers_experiment, refuses_a_scene_that_does_not_exist) {

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <thread>
@@ -83,6 +84,14 @@ TEST_F(Standard_input_of_the_program, that_cannot_be_kept_names_the_folder_for_t
   EXPECT_TRUE(content_of(place).empty());
   ::setenv("TMPDIR", (folder.path() / "nowhere").c_str(), 1);
   expect_error(run_program(info, {.standard_input = "/dev/zero"}), 4, (folder.path() / "nowhere").string() + ": ");
+}
+
+TEST_F(Standard_input_of_the_program, has_the_same_name_in_results_wherever_it_was_kept) {
+  const auto file = folder.write("a.off", tetrahedron_off()).string();
+  ::setenv("TMPDIR", (folder.path() / "." / place.filename()).c_str(), 1);
+  const auto result = run_program({"detect", "-", file, "--format", "off", "--json"}, {.standard_input = file});
+  expect_success(result);
+  EXPECT_EQ(nlohmann::json::parse(result.out)["objects"][0]["files"], nlohmann::json({"-"}));
 }
 
 TEST_F(Standard_input_of_the_program, ends_at_a_signal_and_leaves_nothing) {

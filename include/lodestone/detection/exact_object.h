@@ -151,8 +151,8 @@ class Exact_object {
   }
   /// Whether a promise, or computed points, await the positions at rest.
   bool awaits_rest() const { return motion_.awaits_rest(mesh_.mesh()); }
-  /// Takes the positions that the mesh has now as those at rest, where they are awaited. Not those of a mesh that cannot
-  /// be read, as it has been changed since it was numbered.
+  /// Takes the positions that the mesh has now as those at rest, where they are awaited. Takes none from a mesh that
+  /// cannot be read, because its faces have changed.
   void take_awaited_rest() {
     try {
       mesh().check_connectivity(title());

@@ -80,6 +80,11 @@ class Overlap_search {
     Stack stacks[2];
   };
   static Kept& kept_of_thread();
+  /// Empties both stacks in the end, also where memory runs out.
+  struct Emptied {
+    Stack* stacks;
+    ~Emptied() { stacks[0].clear(), stacks[1].clear(); }
+  };
 
   void test_all(const Faces_in_box& a, const Faces_in_box& b);
   bool search_slice(const Faces_in_box& a, const Faces_in_box& b, const Box& overlap);
