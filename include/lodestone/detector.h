@@ -171,8 +171,9 @@ class Detector {
   }
 
   /// The same where the caller knows which faces have changed, as after CGAL's Euler operations. In mode `exact` the
-  /// tree is mended where they are, which takes a fraction of the time, and no vertices are joined. With regions, and
-  /// in other modes, everything is built again.
+  /// tree is mended where they are, and no vertices are joined. That takes a fraction of the time for meshes whose
+  /// descriptors are indices, such as Surface_mesh; others, such as Polyhedron_3, are numbered as a whole, which takes
+  /// most of it. With regions, and in other modes, everything is built again.
   /// @throws Bad_argument  no such object; mode `exact`: no such face, a face that is not listed has lost a corner
   /// @throws Bad_mesh      as `add`; the object stays as it was
   void rebuild(Object_id object, const Changed_faces& changed) { detection_->rebuild(checked(object), changed); }

@@ -242,6 +242,18 @@ TEST_F(Detect_files, say_which_extensions_of_gltf_are_left_out) {
   EXPECT_EQ(run_program({"partition", file, "--out", (folder.path() / "a.ply").string()}).err, "lodestone: " + note);
 }
 
+TEST_F(Detect_files, say_which_extensions_of_the_gltf_of_a_motion_are_left_out) {
+  auto sample = square_gltf();
+  write("rest.glb", sample.glb());
+  sample.animate(0, "translation", sample.add_numbers({0, 0.1}), sample.add_points({0, 0, 0, 0, 0, 1}));
+  sample.json["nodes"][0]["extensions"] = {{"EXT_mesh_gpu_instancing", {{"attributes", Json::object()}}}};
+  write("motion.glb", sample.glb());
+  const auto scene = write("scene.json", R"({"frames": 1, "objects": [
+    {"name": "a", "mesh": "rest.glb", "motion": {"gltf": "motion.glb"}},
+    {"name": "b", "shape": {"icosphere": {"frequency": 2}}}]})");
+  EXPECT_EQ(detect({scene}).err, "lodestone: a: not read: EXT_mesh_gpu_instancing, which says where surfaces are\n");
+}
+
 TEST_F(Detect_files, of_gltf_with_several_animations_play_the_first_and_say_so_unless_a_scene_chooses) {
   const std::string note =
       ": plays the animation 'idle', the first of 2: 'idle', 'walk'; `gltf.animation` of a scene chooses another\n";

@@ -4,14 +4,17 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <csignal>
 #include <fstream>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "program/run_program.h"
 #include "program/shards.h"
+#include "support/gltf_samples.h"
 #include "support/temporary_folder.h"
 
 namespace lodestone::test {
@@ -103,6 +106,37 @@ TEST_F(Shards, of_mode_certified_are_the_bytes_of_one_run_with_independent_frame
   auto plain = read_json_lines(path("plain") / "frames.jsonl"), parts = read_json_lines(path("parts") / "frames.jsonl");
   ASSERT_EQ(plain.size(), parts.size());
   for (std::size_t frame = 0; frame < plain.size(); ++frame) EXPECT_EQ(plain[frame]["pairs"], parts[frame]["pairs"]);
+}
+
+TEST_F(Shards, of_mode_certified_are_the_bytes_of_one_run_though_an_animation_has_ended) {
+  /// A triangle below a node that is turned by 45 degrees, and rises.
+  const auto rising = [&](const std::string& name, std::size_t frames, std::initializer_list<double> points) {
+    Gltf_sample sample;
+    const auto corners = sample.add_points(points), indices = sample.add_indices({0, 1, 2});
+    sample.json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", corners}}}, {"indices", indices}}}}}};
+    sample.json["nodes"] = {
+        {{"mesh", 0}, {"rotation", {0, 0, std::sin(std::acos(-1) / 8), std::cos(std::acos(-1) / 8)}}}};
+    sample.json["scenes"] = {{{"nodes", {0}}}};
+    const double end = 0.1 * static_cast<double>(frames - 1);
+    sample.animate(0, "translation", sample.add_numbers({0, 0.1, end}),
+                   sample.add_points({0, 0, 0, 0, 0, 0.001, 0, 0, 0.001 + 0.01 * (end - 0.1)}));
+    return folder.write(name, sample.glb()).string();
+  };
+  // Turned, the box of the sliver at rest reaches the second triangle; the sliver itself does not. The third, which
+  // meets the sliver, makes the detector look where it is.
+  const Words inputs{rising("sliver.glb", 3, {-1.4142, 0, 0, 1.4142, 0, 0, 0, 0, 0.1}),
+                     rising("beside.glb", 11, {0.6, -0.6, 0, 0.7, -0.7, 0, 0.7, -0.6, 0.05}),
+                     rising("across.glb", 11, {0, -0.2, 0.02, 0, 0.2, 0.02, 0.1, 0.2, 0.05})};
+  const auto play = [&](const std::string& out, const Words& more) {
+    Words words{"detect", "--mode", "certified", "--contacts", "all", "--out", path(out).string()};
+    words.insert(words.end(), inputs.begin(), inputs.end());
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(run_program(words).exit_code, 0);  // a note tells that one has ended
+  };
+  play("whole", {"--independent-frames"});
+  for (const std::string index : {"1", "2", "3"}) play("parts", {"--shard", index + "/3"});
+  EXPECT_EQ(merge("parts").exit_code, 0);
+  EXPECT_EQ(frames("parts"), frames("whole"));
 }
 
 /// A strip of triangles, or the same faces with their vertices anywhere.

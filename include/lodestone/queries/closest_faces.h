@@ -19,7 +19,8 @@ struct Closest_faces {
 /// the same distance, the choice is deterministic.
 ///
 /// Branch and bound over node pairs, those with the nearest boxes first. O(log F) node pairs are opened, and a few leaf
-/// pairs are compared, where the surfaces are nearest at one point; more where they run side by side.
+/// pairs are compared, where the surfaces are nearest at one point; more where they run side by side. All F^2 pairs of
+/// faces may be compared where these are long slivers side by side, such as two nested cones.
 /// @param a, b  with boxes
 Closest_faces closest_faces(const Layout_view& a, const Layout_view& b);
 

@@ -396,17 +396,26 @@ bool is_gltf(const std::filesystem::path& file) {
 
 namespace {
 
-/// Whether a node turns what it places inside out, at rest: glTF then gives the corners of faces the other way round.
-/// A skin does not care where its node is.
-bool is_mirrored(const Gltf_scene& scene, const Gltf_part& part) {
+/// Whether a node turns what it places inside out, at rest.
+bool is_mirrored(const Gltf_scene& scene, std::size_t node) {
   bool mirrored = false;
-  for (std::size_t node = part.skin == no_index ? part.node : no_index; node != no_index;
-       node = scene.nodes[node].parent) {
+  for (; node != no_index; node = scene.nodes[node].parent) {
     const Gltf_place& place = scene.nodes[node].place;
     const double determinant = place.matrix ? place.matrix->linear().determinant() : place.scale.prod();
     mirrored ^= determinant < 0;
   }
   return mirrored;
+}
+
+/// Whether a part is turned inside out, at rest: glTF then gives the corners of faces the other way round. A skin does
+/// not care where its node is; it is turned where most of its joints turn it.
+bool is_mirrored(const Gltf_scene& scene, const Gltf_part& part) {
+  if (part.skin == no_index) return is_mirrored(scene, part.node);
+  const Gltf_skin& skin = scene.skins[part.skin];
+  std::size_t mirrored = 0;
+  for (std::size_t joint = 0; joint < skin.joints.size(); ++joint)
+    mirrored += is_mirrored(scene, skin.joints[joint]) != (skin.from_mesh[joint].linear().determinant() < 0) ? 1 : 0;
+  return 2 * mirrored > skin.joints.size();
 }
 
 }  // namespace

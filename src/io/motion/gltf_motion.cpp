@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -64,33 +65,36 @@ double rounding_of_keys(const Gltf_animation& animation) {
   return std::min(1e-5, 0.1 * least);
 }
 
-/// The times of all keys of all curves, if they follow each other at equal distances; else nothing.
-std::vector<double> uniform_keys(const Gltf_animation& animation) {
+/// Keys that follow each other at equal distances.
+struct Uniform_keys {
+  std::vector<double> times = {};  ///< of all curves; empty: there are none such
+  double rate = 0;                 ///< per second
+};
+
+Uniform_keys uniform_keys(const Gltf_animation& animation) {
   if (is_still(animation)) return {};
-  std::vector<double> times;
-  for (const auto& curve : animation.curves) times.insert(times.end(), curve.times.begin(), curve.times.end());
-  std::ranges::sort(times);
+  std::vector<double> all;
+  for (const auto& curve : animation.curves) all.insert(all.end(), curve.times.begin(), curve.times.end());
+  std::ranges::sort(all);
   const double rounding = rounding_of_keys(animation);
-  const auto same = [&](double one, double other) { return other - one <= rounding; };
-  times.erase(std::unique(times.begin(), times.end(), same), times.end());
+  std::vector<double> times;
+  std::ranges::unique_copy(all, std::back_inserter(times),
+                           [&](double one, double other) { return other - one <= rounding; });
   if (times.size() < 2) return {};
   const double step = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
   if (step * fewest_keys_per_second > 1 + 1e-6) return {};
-  // Times are floats, and some exporters add up rounded steps.
-  for (std::size_t i = 0; i < times.size(); ++i)
-    if (std::abs(times[i] - times.front() - static_cast<double>(i) * step) > 0.01 * step) return {};
-  return times;
-}
-
-/// Keys per second.
-double rate_of(const std::vector<double>& keys) {
-  return rounded_rate(static_cast<double>(keys.size() - 1) / (keys.back() - keys.front()));
+  // Times are floats, and some exporters add up rounded steps: over thousands of them, times drift by whole frames.
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (std::abs(times[i] - times[i - 1] - step) > 0.01 * step) return {};
+  // The latest of those that are one: at the others, a curve with steps would still have the value before.
+  for (double& time : times) time = *std::prev(std::ranges::upper_bound(all, time + rounding));
+  return {.times = std::move(times), .rate = rounded_rate(1 / step)};
 }
 
 std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, double rate, double start) {
   if (is_still(animation)) return 1;
-  // The tolerance allows for an end that was rounded down to a float.
-  const double frames = std::floor(std::max(animation.seconds - start, 0.0) * rate * (1 + 1e-6)) + 1;
+  // The tolerance allows for an end, and a rate, that were rounded down.
+  const double frames = std::floor(std::max(animation.seconds - start, 0.0) * rate + 0.01) + 1;
   if (!(frames <= double{most_sampled_frames}))
     throw Bad_motion(fmt::format("{}: {} seconds at {} frames per second are more than {} frames", scene.name,
                                  animation.seconds - start, rate, most_sampled_frames));
@@ -103,14 +107,20 @@ struct Sampling {
   std::size_t frames = 0;
   double rate = 0;
   double start = 0;               ///< time of the first frame in seconds
+  double rounding = 0;            ///< seconds by which a key and a frame that are one may differ
   std::vector<double> keys = {};  ///< empty: frames follow each other at the rate
 
-  /// Seconds. Key times are floats: a frame at a key, as far as floats tell, gets the key's exact value.
+  /// Seconds. Key times are rounded: a frame at a key gets the key's exact value.
   double time(std::size_t frame, const Gltf_animation& of_keys) const {
     if (!keys.empty()) return keys[frame];
-    const double exact = start + static_cast<double>(frame) / rate, rounded = static_cast<float>(exact);
-    const auto has_key = [rounded](const auto& curve) { return std::ranges::binary_search(curve.times, rounded); };
-    return std::ranges::any_of(of_keys.curves, has_key) ? rounded : exact;
+    const double exact = start + static_cast<double>(frame) / rate;
+    std::optional<double> key;  // the latest that is meant: see uniform_keys
+    for (const auto& curve : of_keys.curves) {
+      const auto after = std::ranges::upper_bound(curve.times, exact + rounding);
+      if (after == curve.times.begin() || *std::prev(after) < exact - rounding) continue;
+      key = std::max<double>(key.value_or(*std::prev(after)), *std::prev(after));
+    }
+    return key.value_or(exact);
   }
 };
 
@@ -121,9 +131,12 @@ Sampling sampling_of(const Gltf_scene& scene, const Gltf_motion_options& options
     throw Bad_argument(fmt::format("{} frames per second: expected a positive and finite number", *asked));
   Sampling sampling{.animation = number_of(scene, options.animation)};
   const auto& animation = scene.animations[sampling.animation];
-  if (!asked) sampling.keys = uniform_keys(animation);
-  sampling.rate = sampling.keys.empty() ? asked.value_or(usual_rate) : rate_of(sampling.keys);
+  Uniform_keys keys;
+  if (!asked) keys = uniform_keys(animation);
+  sampling.keys = std::move(keys.times);
+  sampling.rate = sampling.keys.empty() ? asked.value_or(usual_rate) : keys.rate;
   sampling.start = sampling.keys.empty() ? (asked ? options.start : 0) : sampling.keys.front();
+  sampling.rounding = std::min(rounding_of_keys(animation), 0.1 / sampling.rate);
   sampling.frames =
       sampling.keys.empty() ? frames_of(scene, animation, sampling.rate, sampling.start) : sampling.keys.size();
   return sampling;
@@ -208,9 +221,9 @@ Motion read_gltf_motion(const std::filesystem::path& file, std::size_t vertices,
   }
   if (scene->vertices != vertices)
     throw Bad_motion(fmt::format("{}: the file has {} vertices, expected {}", scene->name, scene->vertices, vertices));
-  auto files = scene->files;
-  Motion motion = motion_of(std::move(scene), options);
-  motion.files = std::move(files);
+  Motion motion = motion_of(scene, options);
+  motion.files = scene->files;
+  motion.ignored_extensions = scene->ignored_extensions;
   return motion;
 }
 

@@ -188,6 +188,7 @@ Scene_object read_object(const Json_value& value, Scene_folder& folder) {
   object.motion =
       motion ? read_motion(*motion, rest, placement, folder) : deform(rest_positions(object, rest.joined), {});
   if (!rest.joined.empty()) object.motion.joined = std::move(rest.joined);
+  object.ignored_extensions.merge(std::set(object.motion.ignored_extensions));
   object.files = each_once({folder.take_found(), std::move(object.files), object.motion.files});
   return std::move(object);
 }

@@ -151,6 +151,29 @@ TEST_F(Gltf, nodes_that_mirror_a_mesh_turn_its_faces_round) {
   EXPECT_EQ(faces_at(twice, plain), as_they_are);
 }
 
+TEST_F(Gltf, skins_turn_faces_round_where_their_joints_mirror_them) {
+  auto sample = rich_gltf();
+  sample.json.erase("animations");
+  sample.json["nodes"][0].erase("children");
+  sample.json["nodes"].push_back({{"children", {0, 1}}});
+  sample.json["scenes"] = {{{"nodes", {3}}}};
+  const auto turns = [&](std::size_t node, double scale) {
+    auto changed = sample;
+    changed.json["nodes"][node]["scale"] = {scale, 1, 1};
+    return read_animation(write(changed)).faces.front() == Corners{0, 2, 1};
+  };
+  EXPECT_FALSE(turns(3, 1));
+  EXPECT_TRUE(turns(3, -1)) << "the joints are below this node";
+  EXPECT_FALSE(turns(0, -1)) << "of the skin; the joints are not below it";
+  EXPECT_TRUE(turns(1, -1)) << "both joints";
+  EXPECT_FALSE(turns(2, -1)) << "one joint of two";
+  sample.json["skins"][0]["inverseBindMatrices"] =
+      sample.add_floats("MAT4", 16, {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,  //
+                                     -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1});
+  EXPECT_TRUE(turns(3, 1));
+  EXPECT_FALSE(turns(3, -1)) << "both mirror";
+}
+
 TEST_F(Gltf, what_exporters_leave_behind_moves_nothing) {
   auto sample = square_gltf();
   sample.animate(0, "translation", sample.add_numbers({0, 1}), sample.add_points({0, 0, 0, 0, 0, 9}));
@@ -411,6 +434,68 @@ TEST_F(Gltf, uniform_keys_are_frames) {
   EXPECT_EQ(frames_and_rate({0}, {0}), Frames_and_rate(1, 30));
   EXPECT_EQ(frames_and_rate({5}, {1e9}), Frames_and_rate(1, 30)) << "nothing moves";
   EXPECT_EQ(frames_and_rate({0}, {0.1}), Frames_and_rate(1, 30)) << "nothing moves";
+}
+
+TEST_F(Gltf, curves_whose_keys_are_rounded_otherwise_are_at_their_keys) {
+  for (const bool steps_are_late : {false, true}) {
+    auto sample = square_gltf();
+    const double late = std::nextafter(0.1F, 1.0F);
+    const auto times = sample.add_numbers({0, 0.1, 0.2, 0.3}), others = sample.add_numbers({0, late, 0.2, 0.3});
+    const auto curve = [&](const char* path, bool is_late, const char* interpolation) {
+      sample.animate(0, path, is_late ? others : times, sample.add_points({1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4}),
+                     interpolation);
+    };
+    curve("scale", steps_are_late, "STEP");
+    curve("translation", !steps_are_late, "LINEAR");
+    const auto file = write(sample);
+    for (const auto& animation : {read_animation(file), read_animation(file, {.frames_per_second = 10})}) {
+      ASSERT_EQ(animation.motion.frames, 4U);
+      for (std::size_t frame = 0; frame < 4; ++frame) {
+        std::vector<Point> positions(animation.vertices);
+        animation.motion.pose(frame, positions);
+        const double size = 1 + static_cast<double>(frame);
+        expect_near(positions, moved([size](double x, double y, double) {
+                      return Point(size + size * x, size + size * y, size);
+                    }));
+      }
+    }
+  }
+}
+
+TEST_F(Gltf, keys_at_added_up_times_are_frames) {
+  for (const std::size_t keys : {101U, 3001U}) {
+    auto sample = square_gltf();
+    std::string times, sizes;
+    float time = 0;
+    for (std::size_t i = 0; i < keys; ++i, time += 1 / 24.0F) {
+      times += packed<float>({time});
+      sizes += packed<float>({double(i), 1, 1});
+    }
+    const auto accessor = [&](const std::string& bytes, const char* type) {
+      return sample.add_accessor(
+          {{"bufferView", sample.add_view(bytes)}, {"componentType", 5126}, {"count", keys}, {"type", type}});
+    };
+    const auto input = accessor(times, "SCALAR"), output = accessor(sizes, "VEC3");
+    sample.animate(0, "scale", input, output, "STEP");
+    const auto animation = read_animation(write(sample));
+    ASSERT_EQ(animation.motion.frames, keys);
+    EXPECT_NEAR(animation.frames_per_second, 24, 0.01);
+    std::vector<Point> positions(animation.vertices);
+    for (std::size_t frame = 0; frame < keys; ++frame) {
+      animation.motion.pose(frame, positions);
+      EXPECT_EQ(positions[1].x(), static_cast<double>(frame));
+    }
+  }
+}
+
+TEST_F(Gltf, an_end_that_was_rounded_down_is_a_frame) {
+  const auto frames = [&](double end) {
+    auto sample = square_gltf();
+    sample.animate(0, "translation", sample.add_numbers({0, end}), sample.add_points({0, 0, 0, 0, 0, 1}));
+    return read_animation(write(sample), {.frames_per_second = 30}).motion.frames;
+  };
+  EXPECT_EQ(frames(33.3332), 1001U) << "0.004 of a frame too early";
+  EXPECT_EQ(frames(33.3328), 1000U) << "0.016 of a frame too early";
 }
 
 TEST_F(Gltf, animations_are_chosen_by_index_or_name) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <variant>
@@ -49,6 +50,7 @@ struct Motion {
   Joined_vertices joined = {};                    ///< of its glTF or MD3 file, or else of the mesh that it moves
   File_animations animations = {};                ///< of a glTF file; no names in other formats
   std::vector<std::filesystem::path> files = {};  ///< of a glTF file: those that it is read from
+  std::set<std::string> ignored_extensions = {};  ///< of a glTF file: as in Mesh_file
 };
 
 /// Motion from a point cache in the PC2 format (Blender, 3ds Max, Maya). `pose` reads each frame on demand, and several
