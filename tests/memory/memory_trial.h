@@ -57,7 +57,7 @@ struct Tried_call {
 };
 
 /// Repeats a call for each of its allocations, which fails: the call throws std::bad_alloc, the next frame is that of a
-/// detector that never ran out of memory, and nothing leaks. Of more than some hundred allocations it takes some.
+/// detector that never ran out of memory, and nothing leaks.
 void expect_to_survive(const Tried_mode& mode, const Tried_call& tried);
 
 }  // namespace lodestone::test
