@@ -62,7 +62,8 @@ double rounding_of_keys(const Gltf_animation& animation) {
   for (const auto& curve : animation.curves)
     if (const std::size_t keys = curve.times.size(); keys > 1)
       least = std::min<double>(least, (curve.times.back() - curve.times.front()) / static_cast<double>(keys - 1));
-  return std::min(1e-5, 0.1 * least);
+  const double of_floats = animation.seconds * 0x1p-22;  // two steps of the last time
+  return std::min(std::max(1e-5, of_floats), 0.1 * least);
 }
 
 /// Keys that follow each other at equal distances.

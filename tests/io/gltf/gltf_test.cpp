@@ -462,6 +462,18 @@ TEST_F(Gltf, curves_whose_keys_are_rounded_otherwise_are_at_their_keys) {
   }
 }
 
+TEST_F(Gltf, frames_at_late_keys_are_at_them_though_floats_are_coarse_there) {
+  auto sample = square_gltf();
+  const auto times = sample.add_numbers({0, 600.2, 600.4});  // as floats, the second is 0.000012 s later
+  sample.animate(0, "translation", times, sample.add_points({0, 0, 0, 0, 0, 1, 0, 0, 2}), "STEP");
+  const auto animation = read_animation(write(sample), {.frames_per_second = 10});
+  std::vector<Point> positions(animation.vertices);
+  for (const auto& [frame, z] : {std::pair{6001U, 0.0}, {6002U, 1.0}, {6003U, 1.0}, {6004U, 2.0}}) {
+    animation.motion.pose(frame, positions);
+    EXPECT_EQ(positions.front().z(), z) << frame;
+  }
+}
+
 TEST_F(Gltf, keys_at_added_up_times_are_frames) {
   for (const std::size_t keys : {101U, 3001U}) {
     auto sample = square_gltf();
