@@ -122,11 +122,11 @@ TEST_F(Shards, of_mode_certified_are_the_bytes_of_one_run_though_an_animation_ha
                    sample.add_points({0, 0, 0, 0, 0, 0.001, 0, 0, 0.001 + 0.01 * (end - 0.1)}));
     return folder.write(name, sample.glb()).string();
   };
-  // Turned, the box of the sliver at rest reaches the second triangle; the sliver itself does not. The third, which
-  // meets the sliver, makes the detector look where it is.
-  const Words inputs{rising("sliver.glb", 3, {-1.4142, 0, 0, 1.4142, 0, 0, 0, 0, 0.1}),
+  // The sliver lies along a diagonal, and turned along an axis. Its turned box reaches the second triangle, it does
+  // not. The third triangle meets it, so the detector looks where it is.
+  const Words inputs{rising("sliver.glb", 3, {-1, -1, 0, 1, 1, 0, 0, 0, 0.1}),
                      rising("beside.glb", 11, {0.6, -0.6, 0, 0.7, -0.7, 0, 0.7, -0.6, 0.05}),
-                     rising("across.glb", 11, {0, -0.2, 0.02, 0, 0.2, 0.02, 0.1, 0.2, 0.05})};
+                     rising("across.glb", 11, {0.3, 0.4, 0.02, 0.4, 0.3, 0.02, 0.4, 0.4, 0.05})};
   const auto play = [&](const std::string& out, const Words& more) {
     Words words{"detect", "--mode", "certified", "--contacts", "all", "--out", path(out).string()};
     words.insert(words.end(), inputs.begin(), inputs.end());
