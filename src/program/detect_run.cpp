@@ -131,7 +131,7 @@ void Detect_run::pose_all(std::size_t frame) {
   const bool shown = command_.truth || !command_.html.empty() || !command_.paraview.empty();
   for (std::size_t number = 0; number < scene_.objects.size(); ++number) {
     const bool computed = number < computed_.size() && computed_[number];
-    // Then a pose that stays is a new one too, and nothing of earlier frames counts.
+    // A pose that stays would keep what earlier frames have found out about it.
     if (computed && command_.independent_frames) computed_[number]->set_frame(0);
     if (computed) computed_[number]->set_frame(frame);
     if (computed && !shown) continue;
