@@ -16,6 +16,7 @@
 #include "bench/embree_scene.h"
 #include "bench/wavy_sphere.h"
 #include "bench/worm.h"
+#include "lodestone/detector.h"
 #include "lodestone/queries/ray_tree.h"
 #include "shared/lap_timer.h"
 #include "shared/measured_run.h"
@@ -45,7 +46,8 @@ std::uint32_t first_face(const Cgal_tree& tree, const Ray& ray) {
 /// The first face that each of some random rays meets. The libraries take turns in each pass. All have been refitted to
 /// new positions, but for CGAL, which cannot: it has built its tree for them. Lodestone is asked ray by ray, and by a
 /// Ray_tree that is made in each pass, about all rays at once and ray by ray; also about all rays at once by one that
-/// was made before the sphere moved, and is refitted. Embree is asked both ways, without such a tree.
+/// was made before the sphere moved, and is refitted. A Detector is asked ray by ray while positions are held, which
+/// are read anew in each pass. Embree is asked both ways, without such a tree.
 ///
 /// Reported time: that of Lodestone, ray by ray. Counters: nanoseconds per ray, the least of all passes, and per face
 /// for `make_tree_ns` and `refit_tree_ns`; ratios to Lodestone, asked in the same way; rays for which another library
@@ -68,7 +70,9 @@ void first_hit_of_rays(benchmark::State& state) {
   const auto rays = random_rays(20000);
   const std::span<const Ray> few(rays.data(), 2000);
   const Layout_view view = sphere.tree.view();
-  Answers ours, of_tree, of_tree_alone, of_kept, of_cgal;
+  Detector<> detector;
+  detector.add(sphere.mesh);
+  Answers ours, of_tree, of_tree_alone, of_kept, of_held, of_cgal;
   std::vector<double> making, refitting;
   for (auto _ : state) {
     ours.ask(rays, [&](const Ray& ray) {
@@ -85,6 +89,15 @@ void first_hit_of_rays(benchmark::State& state) {
     of_tree_alone.ask(rays, [&](const Ray& ray) {
       const auto hit = first_hit(tree, ray);
       return hit ? hit->face : no_face;
+    });
+    of_held.ask_at_once(rays, [&](std::span<const Ray> all) {
+      const auto held = detector.hold_positions();
+      std::vector<std::uint32_t> faces;
+      for (const Ray& ray : all) {
+        const auto hit = detector.first_hit(0, ray);
+        faces.push_back(hit ? hit->face : no_face);
+      }
+      return faces;
     });
 #ifdef LODESTONE_EMBREE
     of_floats.ask_at_once(rays, [&](std::span<const Ray> all) { return in_float.first_faces(all); });
@@ -106,6 +119,8 @@ void first_hit_of_rays(benchmark::State& state) {
   state.counters["refit_tree_ns"] = *std::ranges::min_element(refitting);
   state.counters["kept_ns"] = of_kept.least();
   state.counters["kept_other"] = static_cast<double>(differences(of_kept.faces, ours.faces));
+  state.counters["held_ns"] = of_held.least();
+  state.counters["held_other"] = static_cast<double>(differences(of_held.faces, ours.faces));
   state.counters["cgal_ns"] = of_cgal.least();
   state.counters["cgal_ratio"] = of_cgal.least() / ours.least();
   state.counters["cgal_other"] = static_cast<double>(differences(of_cgal.faces, ours.faces));

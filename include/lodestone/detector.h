@@ -296,16 +296,17 @@ class Detector {
     return ask_two("contains", outer, inner).contains(outer, inner);
   }
   /// The first face of an object that a ray meets, in mode `exact` or `certified`: see `first_hit` of trees. In mode
-  /// `certified` an object with bounds is posed only where the ray passes.
+  /// `certified` an object with bounds is posed only where the ray passes. While positions are held, so many rays one by
+  /// one that it pays get a Ray_tree, as in `first_hits`.
   /// @throws Bad_argument  no such object, another mode, a ray that is not as `Ray` says
   /// @throws Bad_mesh      as `detect`
   std::optional<Ray_hit> first_hit(Object_id object, const Ray& ray) {
-    return ask_surface("first_hit", object, [&](auto& surface) { return lodestone::first_hit(surface, ray); });
+    return ask_rays("first_hit", object, [&](auto& asked) { return lodestone::first_hit(asked, ray); });
   }
   /// All faces of an object that a ray meets, in their order along it.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
   std::vector<Ray_hit> all_hits(Object_id object, const Ray& ray) {
-    return ask_surface("all_hits", object, [&](auto& surface) { return lodestone::all_hits(surface, ray); });
+    return ask_rays("all_hits", object, [&](auto& asked) { return lodestone::all_hits(asked, ray); });
   }
   /// The face of an object that is nearest to a point: see `closest_point` of trees.
   /// @throws Bad_argument, Bad_mesh  as `first_hit`
@@ -335,12 +336,15 @@ class Detector {
   /// Reads the positions of all objects: many rays at once are faster.
   /// @throws Bad_argument  another mode, a ray that is not as `Ray` says
   /// @throws Bad_mesh      as `detect`
-  std::optional<Object_hit> first_hit(const Ray& ray) { return first_hits({&ray, 1}).front(); }
+  std::optional<Object_hit> first_hit(const Ray& ray) {
+    auto& exact = ask<Exact>("first_hit");
+    return exact.first_hits(exact.ids(), {&ray, 1}).front();
+  }
   /// The same among some objects, whose positions alone are read.
   /// @param objects        in any order
   /// @throws Bad_argument, Bad_mesh  as the other call; no such object
   std::optional<Object_hit> first_hit(std::span<const Object_id> objects, const Ray& ray) {
-    return first_hits(objects, {&ray, 1}).front();
+    return ask<Exact>("first_hit").first_hits(sorted(objects), {&ray, 1}).front();
   }
   /// The same for many rays. An object is asked about the rays that reach its box, as in the call for one object: see
   /// `first_hits_among`.
@@ -517,6 +521,10 @@ class Detector {
   template <class Question>
   auto ask_surface(const char* name, Object_id object, const Question& question) {
     return ask<Exact>(name, object).of_surface(object, question);
+  }
+  template <class Question>
+  auto ask_rays(const char* name, Object_id object, const Question& question) {
+    return ask<Exact>(name, object).of_rays(object, question);
   }
 
   template <class Asked, class Question>

@@ -7,6 +7,7 @@
 
 #include "lodestone/io/shapes/shapes.h"
 #include "support/exact_truth.h"
+#include "support/message_of.h"
 
 namespace lodestone {
 namespace {
@@ -98,6 +99,13 @@ TEST(Detector_rays, need_an_object_and_a_mode_with_trees) {
   Detector<> particles({.mode = Mode::particles});
   particles.add(mesh);
   EXPECT_THROW(particles.ray_tree(0), Bad_argument);
+  const Ray ray{.origin = {-3, 0, 0}, .direction = {1, 0, 0}};
+  const Object_id ids[] = {0};
+  const auto refusal = [](const auto& ask) { return message_of<Bad_argument>(ask).substr(0, 16); };
+  EXPECT_EQ(refusal([&] { particles.first_hit(0, ray); }), "first_hit needs ");
+  EXPECT_EQ(refusal([&] { particles.first_hit(ray); }), "first_hit needs ");
+  EXPECT_EQ(refusal([&] { particles.first_hit(ids, ray); }), "first_hit needs ");
+  EXPECT_EQ(refusal([&] { particles.first_hits(ids, {&ray, 1}); }), "first_hits needs");
 }
 
 }  // namespace

@@ -56,6 +56,13 @@ std::vector<Ray> many_rays() {
   return rays;
 }
 
+void expect_same_hit(const std::optional<Ray_hit>& one, const std::optional<Ray_hit>& other) {
+  ASSERT_EQ(one.has_value(), other.has_value());
+  if (!one) return;
+  EXPECT_EQ(one->face, other->face);
+  EXPECT_EQ(one->t, other->t);
+}
+
 /// What two detectors of the same scene answer about objects a and b.
 template <class One, class Other>
 void expect_same_answers(One& one, Other& other, Object_id a, Object_id b) {
@@ -74,16 +81,17 @@ void expect_same_answers(One& one, Other& other, Object_id a, Object_id b) {
   const Point outside(2, 0.1, 0.3);
   EXPECT_EQ(one.closest_point(b, outside).distance, other.closest_point(b, outside).distance);
   EXPECT_EQ(one.point_side(b, {0.1, 0, 0}), other.point_side(b, {0.1, 0, 0}));
-  // The tree that is kept for many rays, and none.
+  // Many rays one by one: the tree that is made for them while positions are held, and none.
   const auto rays = many_rays();
-  const auto hits = one.first_hits(b, rays);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const auto alone = other.first_hit(b, rays[i]);
-    ASSERT_EQ(hits[i].has_value(), alone.has_value());
-    if (!alone) continue;
-    EXPECT_EQ(hits[i]->face, alone->face);
-    EXPECT_EQ(hits[i]->t, alone->t);
+  for (const Ray& ray : rays) {
+    expect_same_hit(one.first_hit(b, ray), other.first_hit(b, ray));
+    const auto all = one.all_hits(b, ray), other_all = other.all_hits(b, ray);
+    ASSERT_EQ(all.size(), other_all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) expect_same_hit(all[i], other_all[i]);
   }
+  // The same at once, by the tree that is kept.
+  const auto hits = one.first_hits(b, rays);
+  for (std::size_t i = 0; i < rays.size(); ++i) expect_same_hit(hits[i], other.first_hit(b, rays[i]));
 }
 
 TEST(Held_positions, only_the_first_query_of_an_object_reads_them) {

@@ -195,6 +195,10 @@ TEST(Out_of_memory, in_a_query_of_rays_or_points_leaves_a_detector_whose_next_fr
   const std::vector<Ray> many(200, rays.front());
   expect_query_to_survive([&](Trial& trial) { trial.detector.first_hits(0, rays); });
   expect_query_to_survive([&](Trial& trial) { trial.detector.first_hits(0, many); });  // makes a Ray_tree
+  expect_query_to_survive([&](Trial& trial) {
+    const auto held = trial.detector.hold_positions();
+    for (const Ray& ray : many) trial.detector.first_hit(0, ray);  // so does the last of these
+  });
   expect_query_to_survive([&](Trial& trial) { trial.detector.first_hits(rays); });
   expect_query_to_survive([&](Trial& trial) { trial.detector.all_hits(0, rays.front()); });
   expect_query_to_survive([&](Trial& trial) { trial.detector.closest_points(0, points); });

@@ -135,6 +135,13 @@ class Exact_detection final : public Detection {
     const Busy busy = refresh({&object, 1});
     return of_refreshed(object, question, parts);
   }
+  /// Asks about rays: the Ray_tree of the object where it pays, and else its surface.
+  /// @param question  called with a `const Ray_tree&`, a Layout_view or a Bounded_surface
+  template <class Question>
+  auto of_rays(Object_id object, const Question& question, std::size_t rays = 1) {
+    const Busy busy = refresh({&object, 1});
+    return rays_of_refreshed(object, question, rays);
+  }
   /// See `Detector::ray_tree`.
   const Ray_tree& ray_tree(Object_id object)
     requires std::same_as<Volume, Aabb>
@@ -206,6 +213,9 @@ class Exact_detection final : public Detection {
   /// See `of_surface`.
   template <class Question>
   auto of_refreshed(Object_id object, const Question& question, std::size_t parts);
+  /// See `of_rays`.
+  template <class Question>
+  auto rays_of_refreshed(Object_id object, const Question& question, std::size_t rays);
   std::vector<std::optional<Ray_hit>> first_hits_of_refreshed(Object_id object, std::span<const Ray> rays);
 
   Detector_options options_;
@@ -321,15 +331,21 @@ auto Exact_detection<Volume>::of_refreshed(Object_id object, const Question& que
 }
 
 template <Bounding_volume Volume>
+template <class Question>
+auto Exact_detection<Volume>::rays_of_refreshed(Object_id object, const Question& question, std::size_t rays) {
+  const auto of_tree_or_surface = [&](auto& surface) {
+    if constexpr (std::same_as<Volume, Aabb> && std::same_as<decltype(surface), const Layout_view&>)
+      if (objects_[object].pays_for(rays)) return question(objects_[object].ray_tree(workers_));
+    return question(surface);
+  };
+  return of_refreshed(object, of_tree_or_surface, rays);
+}
+
+template <Bounding_volume Volume>
 std::vector<std::optional<Ray_hit>> Exact_detection<Volume>::first_hits_of_refreshed(Object_id object,
                                                                                      std::span<const Ray> rays) {
-  const auto question = [&](auto& surface) {
-    if constexpr (std::same_as<Volume, Aabb> && std::same_as<decltype(surface), const Layout_view&>)
-      if (objects_[object].pays_for(rays.size()))
-        return lodestone::first_hits(objects_[object].ray_tree(workers_), rays, workers_);
-    return lodestone::first_hits(surface, rays, workers_);
-  };
-  return of_refreshed(object, question, rays.size());
+  const auto question = [&](auto& asked) { return lodestone::first_hits(asked, rays, workers_); };
+  return rays_of_refreshed(object, question, rays.size());
 }
 
 template <Bounding_volume Volume>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -33,9 +34,13 @@ class Ray_tree {
   void refit(const Layout_view& surface, Workers& workers = Workers::alone());
 
   /// Whether so many rays save more time than it takes to make a tree, on one thread.
-  static constexpr bool pays(std::size_t rays, std::size_t faces) { return rays > faces / 16; }
+  static constexpr bool pays(std::size_t rays, std::size_t faces) {
+    return rays > std::max<std::size_t>(1, faces / 16);
+  }
   /// The same of a tree that is refitted.
-  static constexpr bool refit_pays(std::size_t rays, std::size_t faces) { return rays > faces / 64; }
+  static constexpr bool refit_pays(std::size_t rays, std::size_t faces) {
+    return rays > std::max<std::size_t>(1, faces / 64);
+  }
 
   /// What it was made of.
   const Layout_view& surface() const { return surface_; }

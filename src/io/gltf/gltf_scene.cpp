@@ -61,7 +61,7 @@ tinygltf::Model read_model(Guarded_gltf& guarded, const std::string& name) {
 class Shape_reader {
  public:
   Shape_reader(const tinygltf::Model& model, std::size_t mesh, const std::string& name)
-      : model_(model), mesh_(model.meshes[mesh]), place_(fmt::format("{}: /meshes/{}", name, mesh)), name_(name) {}
+      : model_(model), mesh_(model.meshes[mesh]), number_(mesh), name_(name) {}
 
   Gltf_shape read();
 
@@ -75,8 +75,9 @@ class Shape_reader {
 
   const tinygltf::Model& model_;
   const tinygltf::Mesh& mesh_;
-  std::string place_;
+  std::size_t number_;  ///< of the mesh
   const std::string& name_;
+  std::string place_;  ///< of the primitive that is read
   Gltf_shape shape_ = {};
 };
 
@@ -141,7 +142,7 @@ void Shape_reader::read_joints(const tinygltf::Primitive& primitive, std::size_t
   for (std::size_t vertex = first; vertex < first + count && width > 0; ++vertex) {
     const auto weights = std::span(shape_.joint_weights).subspan(vertex * width, width);
     if (std::ranges::any_of(weights, [](double weight) { return weight < 0; }))
-      throw Bad_mesh(fmt::format("{}: vertex {} (counted from 0) has a negative joint weight", name_, vertex));
+      throw Bad_mesh(fmt::format("{}: vertex {} (counted from 0) has a negative joint weight", place_, vertex - first));
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     if (sum == 0) weights[0] = 1;
     for (double& weight : weights) weight /= sum == 0 ? 1 : sum;
@@ -209,7 +210,10 @@ void Shape_reader::weld() {
 Gltf_shape Shape_reader::read() {
   count_influences();
   shape_.weights = mesh_.weights;
-  for (const auto& primitive : mesh_.primitives) read_primitive(primitive);
+  for (std::size_t i = 0; i < mesh_.primitives.size(); ++i) {
+    place_ = fmt::format("{}: /meshes/{}/primitives/{}", name_, number_, i);
+    read_primitive(mesh_.primitives[i]);
+  }
   for (auto& target : shape_.targets)
     if (!target.empty()) target.resize(shape_.positions.size());
   shape_.weights.resize(shape_.targets.size());
@@ -292,8 +296,8 @@ void check_joints(const Gltf_part& part, const Gltf_scene& scene) {
   const auto joints = scene.skins[part.skin].joints.size();
   const auto largest = std::ranges::max_element(part.shape->joints);
   if (largest != part.shape->joints.end() && *largest >= joints)
-    throw Bad_mesh(
-        fmt::format("{}: /nodes/{}: a vertex follows joint {} of {}", scene.name, part.node, *largest, joints));
+    throw Bad_mesh(fmt::format("{}: /nodes/{}: a vertex follows joint {} (counted from 0), but /skins/{} has {}",
+                               scene.name, part.node, *largest, part.skin, joints));
 }
 
 /// @param node  shows a mesh

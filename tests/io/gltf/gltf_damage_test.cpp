@@ -192,14 +192,20 @@ TEST_F(Gltf_damage, dangling_references_are_refused) {
   expect_error("/scene", 1, "/scene: 1 is not");
   auto sample = square_gltf();
   sample.json["meshes"][0]["primitives"][0]["indices"] = sample.add_indices({0, 1, 4});
-  expect_error(sample.gltf(), "/meshes/0: index 2 (counted from 0) refers to vertex 4 of 4");
+  expect_error(sample.gltf(), "/meshes/0/primitives/0: index 2 (counted from 0) refers to vertex 4 of 4");
+}
+
+TEST_F(Gltf_damage, joints_that_a_skin_does_not_have_are_refused) {
+  auto sample = rich_gltf();
+  sample.json["skins"][0]["joints"] = {1};
+  expect_error(sample.gltf(), ": a vertex follows joint 1 (counted from 0), but /skins/0 has 1");
 }
 
 TEST_F(Gltf_damage, negative_joint_weights_are_refused) {
   auto sample = rich_gltf();
   const auto weights = sample.add_quaternions({1, 0, 0, 0, 1.5, -0.5, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
   sample.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] = weights;
-  expect_error(sample.gltf(), "vertex 1 (counted from 0) has a negative joint weight");
+  expect_error(sample.gltf(), "/meshes/0/primitives/0: vertex 1 (counted from 0) has a negative joint weight");
 }
 
 TEST_F(Gltf_damage, matrices_that_are_not_affine_are_refused) {
