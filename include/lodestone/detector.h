@@ -296,8 +296,8 @@ class Detector {
     return ask_two("contains", outer, inner).contains(outer, inner);
   }
   /// The first face of an object that a ray meets, in mode `exact` or `certified`: see `first_hit` of trees. In mode
-  /// `certified` an object with bounds is posed only where the ray passes. While positions are held, so many rays one by
-  /// one that it pays get a Ray_tree, as in `first_hits`.
+  /// `certified` an object with bounds is posed only where the ray passes. While positions are held, many rays one by one
+  /// get a Ray_tree as soon as that saves time, as in `first_hits`.
   /// @throws Bad_argument  no such object, another mode, a ray that is not as `Ray` says
   /// @throws Bad_mesh      as `detect`
   std::optional<Ray_hit> first_hit(Object_id object, const Ray& ray) {

@@ -140,6 +140,7 @@ class Exact_objects {
  private:
   void start_on_demand(std::span<const Object_id> ids);
   void take_awaited_rest();
+  void refresh_whole();
   void refit_built(std::span<const Object_id> ids);
   void build_new(std::span<const Object_id> ids);
   void rebuild_loose(std::span<const Object_id> ids);
@@ -180,6 +181,12 @@ void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
     if (!on_demand(id)) whole_.push_back(id);
   }
   start_on_demand(ids);
+  if (!whole_.empty()) refresh_whole();  // to look at the clock would be a good part of a query for one ray
+  for (const auto id : ids) objects_[id]->note_refreshed(hold_->number());
+}
+
+template <Bounding_volume Volume>
+void Exact_objects<Volume>::refresh_whole() {
   for (const auto id : whole_) work_.vertices_read += objects_[id]->mesh().vertex_count();
   // Refitted first: a tree that is built now holds the current positions.
   timed(work_.seconds.refit, [&] { refit_built(whole_); });
@@ -191,7 +198,6 @@ void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
     });
   rebuild_loose(whole_);
   if (options_.mode == Mode::certified) bound_refitted(whole_);
-  for (const auto id : ids) objects_[id]->note_refreshed(hold_->number());
 }
 
 /// Also of objects that the query is not about: a promise must not depend on whom the caller asks about first.
