@@ -49,6 +49,10 @@ TEST(Kept_ray_tree, that_has_the_pose_pays_for_every_ray_and_one_of_another_pose
   EXPECT_TRUE(tree.pays_for(1, faces));
   tree.forget();
   EXPECT_FALSE(tree.pays_for(26, faces));
+  Kept_ray_tree of_other_faces;
+  EXPECT_FALSE(of_other_faces.pays_for(25, faces));
+  of_other_faces.forget();
+  EXPECT_FALSE(of_other_faces.pays_for(77, faces));  // not 102
 }
 
 }  // namespace
