@@ -57,6 +57,8 @@ export class View {
       this.held = false;
       this.#draw_soon();
     });
+    // three.js makes everything anew, but does not draw by itself.
+    canvas.addEventListener('webglcontextrestored', () => this.refresh());
     new ResizeObserver(() => this.#fit()).observe(canvas.parentElement);
     this.#fit();
   }
