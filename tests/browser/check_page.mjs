@@ -69,6 +69,7 @@ try {
   const both = pairs_by_program(['large.stl', 'teapot.obj']);
   assert.match(await ask(['large.stl'], ['teapot.obj']), new RegExp(`^They intersect: ${both} face pairs,`));
   assert.equal(await ask(['teapot.obj', 'broken.off']), 'broken.off:6: face refers to vertex 7 of 3 (counted from 0)');
+  assert.ok(!(await page.isVisible('#viewer')), 'the meshes before an error are not shown below it');
   await ask(['teapot.obj', 'ball.stl']);
   const viewer = page.frameLocator('#viewer');
   await viewer.locator('#title').filter({ hasText: 'teapot.obj and ball.stl' }).waitFor({ timeout: 30_000 });
@@ -78,6 +79,13 @@ try {
   await page.setViewportSize({ width: 390, height: 844 });
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth > innerWidth), false, 'the page is too wide for a phone');
   await page.screenshot({ path: in_folder('phone.png') });
+  await viewer.locator('body').evaluate((body, text) => {
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([text], 'dropped.off'));
+    body.dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
+  }, fs.readFileSync(in_folder('tiny.off'), 'utf8'));
+  await page.waitForFunction(() => document.getElementById('answer').textContent.startsWith('It intersects itself'));
+  await viewer.locator('#title').filter({ hasText: 'dropped.off' }).waitFor({ timeout: 30_000 });
   assert.deepEqual(problems, []);
 } finally {
   await browser.close();

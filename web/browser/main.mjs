@@ -16,9 +16,19 @@ function base64(bytes) {
 
 const escaped = (text) => text.replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
 
+/** Files that are dropped on the viewer are for this page, which the frame does not tell of them otherwise. */
+const passes_drops_on = `<script>
+addEventListener('dragover', (event) => event.preventDefault());
+addEventListener('drop', (event) => {
+  event.preventDefault();
+  parent.postMessage([...event.dataTransfer.files], '*');
+});
+<\/script>`;
+
 function show(answer, names) {
   by_id('answer').classList.toggle('problem', Boolean(answer.error));
   if (answer.error) {
+    by_id('viewer').srcdoc = '';
     by_id('answer').textContent = answer.error.replaceAll(/\/[01]\//g, '');
     return;
   }
@@ -30,7 +40,7 @@ function show(answer, names) {
     : `${subject} ${names.length > 1 ? 'do not intersect' : 'does not intersect itself'}: checked in ${time}.`;
   by_id('viewer').srcdoc = text_of('template')
     .replace('@LODESTONE_DATA@', () => base64(answer.data))  // first, since a name may be that of the mark
-    .replaceAll('@LODESTONE_TITLE@', () => escaped(names.join(' and ')));
+    .replaceAll('@LODESTONE_TITLE@', () => escaped(names.join(' and '))) + passes_drops_on;
   by_id('viewer').hidden = false;
 }
 
@@ -44,6 +54,7 @@ async function take(list) {
   by_id('clear').hidden = false;
   by_id('answer').classList.remove('problem');
   by_id('answer').textContent = 'Checking …';
+  by_id('viewer').hidden = true;  // It shows the meshes before.
   const question = ++asked;
   const names = chosen.map(({ name }) => name);
   const read = async (file) => ({ name: file.name.replaceAll('/', '_'), bytes: await file.arrayBuffer() });
@@ -72,6 +83,9 @@ document.addEventListener('dragover', (event) => {
   by_id('zone').classList.add('over');
 });
 document.addEventListener('dragleave', () => by_id('zone').classList.remove('over'));
+addEventListener('message', ({ source, data }) => {
+  if (source === by_id('viewer').contentWindow && Array.isArray(data)) take(data.filter((file) => file instanceof File));
+});
 document.addEventListener('drop', (event) => {
   event.preventDefault();
   by_id('zone').classList.remove('over');

@@ -19,6 +19,7 @@ export async function plots_page(title, plots) {
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'">
 <title>${escape_html(title)}</title>
 <link rel="icon" href="data:,">
 <style>
@@ -29,7 +30,7 @@ ${style}</style>
 <h1>${escape_html(title)}</h1>
 ${plots.map(section).join('\n')}
 </main>
-<script type="application/json" id="plots">${embed_json({ plots: named, tables })}</script>
+<script type="application/json" id="data">${embed_json({ plots: named, tables })}</script>
 <!--
 ${licences.replaceAll('--', '- -')}
 -->
@@ -59,7 +60,7 @@ function section({ name, title, description }) {
   return `<section>
 <h2>${escape_html(title)}</h2>
 <p>${escape_html(description)}</p>
-<div class="plot" id="${escape_html(name)}"></div>
+<div class="plot" id="plot-${escape_html(name)}"></div>
 </section>`;
 }
 

@@ -3,7 +3,7 @@
 import embed from 'vega-embed';
 import { fitted_plot, page_plot_config } from './plot_fit.mjs';
 
-const { plots, tables } = JSON.parse(document.getElementById('plots').textContent, (key, value) =>
+const { plots, tables } = JSON.parse(document.getElementById('data').textContent, (key, value) =>
   key === 'data' && Number.isInteger(value?.table) ? { name: `table ${value.table}` } : value,
 );
 const datasets = Object.fromEntries(tables.map((values, i) => [`table ${i}`, values]));
@@ -14,18 +14,24 @@ let drawn = [];
 async function draw() {
   const scheme = dark.matches ? 'dark' : 'light';
   drawn.forEach((result) => result.finalize());
-  drawn = await Promise.all(
-    plots.map(({ name, spec }) =>
-      embed(document.getElementById(name), fitted_plot({ ...spec, datasets }, narrow.matches), {
-        mode: 'vega-lite',
-        renderer: 'svg',
-        config: page_plot_config(scheme, narrow.matches),
-        actions: false,
-        tooltip: { theme: scheme },
-      }),
-    ),
-  );
+  drawn = (await Promise.all(plots.map((plot) => draw_one(plot, scheme)))).filter(Boolean);
   document.documentElement.dataset.drawn = 'yes';
+}
+
+/** One plot that fails leaves the others as they are. */
+async function draw_one({ name, spec }, scheme) {
+  const place = document.getElementById(`plot-${name}`);
+  try {
+    return await embed(place, fitted_plot({ ...spec, datasets }, narrow.matches), {
+      mode: 'vega-lite',
+      renderer: 'svg',
+      config: page_plot_config(scheme, narrow.matches),
+      actions: false,
+      tooltip: { theme: scheme },
+    });
+  } catch (error) {
+    place.textContent = `This plot cannot be drawn: ${error.message}`;
+  }
 }
 
 dark.addEventListener('change', draw);

@@ -52,8 +52,12 @@ export const near_tolerance = 0.12;
 /** Of the pairs of a crowd, which all have the same names, every fifth collides where the knot and the sphere do. */
 export const crowd_pairs = 45;
 
+/** Of the objects of kind `names`. */
+export const long_names = ['a_body_with_a_name_that_has_no_place_to_break_but_goes_on_and_on.off', 'גוף שני'];
+
 /** Of the kinds whose results differ from those of the run. */
 const logs = {
+  exact: ({ log }) => log.map((entry) => ({ ...entry, found: entry.positive })),
   near: (run) => with_near_contacts(run, near_tolerance),
   crowd: ({ objects, log }) => log.map((entry) => ({ ...entry, candidates: all_region_pairs(objects, entry.nearest) })),
 };
@@ -62,7 +66,7 @@ const all_region_pairs = ([first, second], distance) =>
   Array.from({ length: first.regions * second.regions }, (_, i) => [0, Math.floor(i / second.regions), 1, i % second.regions, distance]);
 
 /**
- * @param {'run' | 'large' | 'small' | 'partition' | 'experiment' | 'exact' | 'near' | 'crowd' | 'sampled'} kind
+ * @param {'run' | 'large' | 'small' | 'partition' | 'experiment' | 'exact' | 'near' | 'crowd' | 'sampled' | 'bare' | 'names'} kind
  * @returns {{bytes: Buffer, lines: string[], log: object[]}} the container, its lines of frames.jsonl, and the
  * synthetic data
  */
@@ -81,7 +85,6 @@ export function make_container(kind) {
   const still = kind === 'partition';
   const shown = still ? objects.slice(0, 1) : objects;
   const exact = kind === 'exact' || kind === 'near';
-  const crowd = kind === 'crowd';
   const header = {
     ...empty,
     kind: still ? 'partition' : 'detect',
@@ -90,11 +93,11 @@ export function make_container(kind) {
     note: still || exact ? null : particles_note,
     frames,
     ...(kind === 'sampled' ? { frame_step: 10, first_contacts: true } : {}),
-    objects: shown.map((object, i) => add_object(writer, object, i, exact)),
+    objects: shown.map((object, i) => add_object(writer, object, i, exact || kind === 'bare')),
   };
-  const lines = log.map((entry, f) => JSON.stringify(crowd ? in_crowd(line_of(entry, f, exact)) : line_of(entry, f, exact)));
+  const lines = log.map((entry, f) => JSON.stringify((changed_lines[kind] ?? ((line) => line))(line_of(entry, f, exact))));
   if (still) header.numbers = writer.add('numbers', `${JSON.stringify(partition_line(shown[0]))}\n`);
-  if (!still) {
+  if (!still && kind !== 'bare') {
     header.numbers = writer.add('numbers', `${lines.join('\n')}\n`);
     header.stages = writer.add('stages', log.map(stage_of));
     if (!exact) header.candidates = writer.add('candidates', log.map(({ candidates }) => candidates));
@@ -135,6 +138,13 @@ function in_crowd({ pairs: [pair], ...line }) {
   const apart = { a: 'body', b: 'body', collides: false, faces: [], truth: false };
   return { ...line, pairs: Array.from({ length: crowd_pairs }, (_, i) => (i % 5 === 4 ? { ...pair, a: 'body', b: 'body' } : apart)) };
 }
+
+function with_long_names({ pairs: [pair], ...line }) {
+  const [a, b] = long_names;
+  return { ...line, pairs: [{ ...pair, a, b }] };
+}
+
+const changed_lines = { crowd: in_crowd, names: with_long_names };
 
 /** In the format of src/program/partition_command.cpp. */
 const partition_line = ({ regions, corners }) => ({ mesh: 'knot.off', strategy: 'lbg', triangles: corners.length / 3, regions, measures: { size_balance: 1.5 } });

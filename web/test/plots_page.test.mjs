@@ -33,9 +33,9 @@ test('the page draws every plot from one file, fits the screen, and tells values
     await page.waitForSelector('html[data-drawn]');
     assert.deepEqual(errors, []);
     assert.deepEqual(requests.filter((url) => !url.startsWith('data:')), [pathToFileURL(file).href]);
-    assert.equal(await page.locator('#time [aria-roledescription=point]').count(), 48);
+    assert.equal(await page.locator('#plot-time [aria-roledescription=point]').count(), 48);
     assert.ok((await page.evaluate('document.documentElement.scrollWidth')) <= screen.viewport.width, name);
-    await page.locator('#time [aria-roledescription=point]').last().hover();
+    await page.locator('#plot-time [aria-roledescription=point]').last().hover();
     await page.waitForSelector('#vg-tooltip-element.visible');
     assert.match(await page.textContent('#vg-tooltip-element'), /grid.*teapot/);
     await page.close();
@@ -48,4 +48,25 @@ test('plots of the same data hold it once', async () => {
   const plots = ['a', 'b'].map((name) => ({ name, title: name, description: '', spec: structuredClone(spec) }));
   const html = await plots_page('Twice', plots);
   assert.equal(html.split('row-7-').length - 1, 1);
+});
+
+test('a plot may have any name, and one that fails leaves the others as they are', async (t) => {
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'page-'));
+  t.after(() => fs.rmSync(folder, { recursive: true }));
+  const spec = { data: { values: [{ x: 1 }, { x: 2 }] }, mark: 'point', encoding: { x: { field: 'x', type: 'quantitative' } } };
+  const plots = ['data', 'plots', 'broken'].map((name) => ({ name, title: name, description: '', spec: structuredClone(spec) }));
+  plots[2].spec.transform = [{ calculate: 'this is no expression', as: 'y' }];
+  const file = path.join(folder, 'plots.html');
+  fs.writeFileSync(file, await plots_page('Names', plots));
+  const browser = await start_browser();
+  t.after(() => browser.close());
+  const page = await browser.newPage(screens.laptop);
+  const errors = [];
+  page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
+  page.on('pageerror', (error) => errors.push(error.message));
+  await page.goto(pathToFileURL(file).href);
+  await page.waitForSelector('html[data-drawn]');
+  for (const name of ['data', 'plots']) assert.equal(await page.locator(`#plot-${name} [aria-roledescription=point]`).count(), 2);
+  assert.match(await page.textContent('#plot-broken'), /^This plot cannot be drawn: /);
+  assert.deepEqual(errors, []);
 });

@@ -8,7 +8,7 @@ import { after, afterEach, before, describe, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { start_browser } from '../src/browser.mjs';
 import { viewer_template } from '../src/viewer_template.mjs';
-import { crowd_pairs, make_container, particles_note } from './make_page.mjs';
+import { crowd_pairs, long_names, make_container, particles_note } from './make_page.mjs';
 import { fill } from './write_container.mjs';
 
 const laptop = { viewport: { width: 1280, height: 800 } };
@@ -274,6 +274,21 @@ describe('the viewer', () => {
     assert.equal(await page.getAttribute('#play', 'aria-label'), 'Play');
   });
 
+  test('a key that is held plays once, and steps on; capital letters are letters', async () => {
+    const page = await open_kind('small');
+    const held = async (key) => {
+      for (let i = 0; i < 4; ++i) await page.keyboard.down(key);  // From the second on they are repetitions.
+      await page.keyboard.up(key);
+    };
+    await held('ArrowRight');
+    assert.equal(await frame_of(page), 4);
+    await held('k');
+    assert.equal(await page.getAttribute('#play', 'aria-label'), 'Pause');
+    await page.keyboard.press('K');
+    assert.equal(await page.getAttribute('#play', 'aria-label'), 'Play');
+    await changes_picture(page, () => held('A'), 'A');
+  });
+
   test('the timeline takes the keys of a slider while it has the focus', async () => {
     const page = await open_kind('small');
     await page.focus('#timeline');
@@ -366,6 +381,23 @@ describe('the viewer', () => {
     }
   });
 
+  test('dragging to the edge of a part of the timeline does not move that part', async () => {
+    const page = await open_kind('small');
+    await page.evaluate('lodestone.goto(20)');
+    const part = () => page.evaluate(() => document.querySelector('.detail svg').getAttribute('viewBox'));
+    const bar = await page.locator('.detail').boundingBox();
+    await page.mouse.move(bar.x + 0.43 * bar.width, bar.y + 10);
+    await page.mouse.wheel(0, -300);
+    await page.waitForFunction(() => Number(document.querySelector('.detail svg').getAttribute('viewBox').split(' ')[2]) < 39);
+    const before = await part();
+    assert.match(before, /^\d+\.\d/, 'a part that begins with a whole frame would test nothing');
+    await page.mouse.down();
+    for (const side of [0, 1])
+      for (let i = 0; i < 6; ++i) await page.mouse.move(bar.x + side * bar.width + i, bar.y + 10);
+    assert.equal(await part(), before);
+    await page.mouse.up();
+  });
+
   test('on a phone nothing scrolls sideways, and fingers move and zoom the timeline', async () => {
     const page = await open_kind('small', phone);
     await page.evaluate('lodestone.plots_ready');
@@ -425,6 +457,81 @@ describe('the viewer', () => {
     assert.equal(await report.textContent('#report pre'), 'lodestone experiment walks | head');
     assert.equal(await report.locator('#plot-sweep [aria-roledescription=point]').count(), 4);
     for (const page of [still, exact, report]) assert.deepEqual(page.heard.errors, []);
+  });
+
+  test('without results there is a timeline too, and mode exact does not say twice what collides', async () => {
+    const lanes = (page) => page.locator('.lane-names.of-detail span').allTextContents();
+    const bare = await open_kind('bare');
+    assert.deepEqual(await lanes(bare), ['frames']);
+    for (const track of ['.overview', '.detail']) assert.ok((await bare.locator(`${track} svg rect`).boundingBox()).height > 8);
+    assert.deepEqual(bare.heard.errors, []);
+    const exact = await open_kind('exact');
+    assert.deepEqual(await lanes(exact), ['colliding']);
+    const { log } = container('exact');
+    assert.equal(await exact.textContent('.legend'), `${log.filter(({ found }) => found).length} colliding`);
+  });
+
+  test('a click keeps the camera, which then still follows the size of the window; wheel and keys come very near', async () => {
+    const page = await open_kind('small');
+    const distance = () => page.evaluate('lodestone.view.controls.getDistance()');
+    const first = await distance();
+    const resized = async (width) => {
+      await page.setViewportSize({ width, height: 800 });
+      await page.waitForFunction((w) => document.getElementById('canvas').clientWidth < w, width);
+      await settled(page);
+    };
+    await page.mouse.click(400, 300);
+    assert.equal(await distance(), first);
+    await resized(900);
+    assert.notEqual(await distance(), first);
+    await page.mouse.move(400, 300);
+    for (let i = 0; i < 60; ++i) await page.mouse.wheel(0, -400);
+    await page.waitForFunction('lodestone.view.controls.getDistance() < 0.01');
+    await settled(page);
+    assert.ok((await page.evaluate('lodestone.view.camera.near')) < 0.001);
+    const near = await distance();
+    await resized(1000);
+    assert.equal(await distance(), near);
+    assert.deepEqual(page.heard.errors, []);
+  });
+
+  test('names of any length and script stand beside what is said of them', async () => {
+    const page = await open_kind('names');
+    const [name, state] = await Promise.all(['.name', '.state'].map((part) => page.locator(`#pairs ${part}`).first().boundingBox()));
+    const panel = await page.locator('#panel').boundingBox();
+    assert.ok(name.x + name.width <= state.x && state.x + state.width <= panel.x + panel.width);
+    assert.equal(await page.locator('#pairs .name').first().textContent(), long_names.join(' – '));
+    const ends = await page.locator('#pairs bdi').evaluateAll((names) => names.slice(0, 2).map((part) => part.getBoundingClientRect().top));
+    assert.ok(ends[0] < ends[1], 'the first name stands first');
+    assert.ok(await page.isVisible('#help-button') && (await page.locator('#help-button').boundingBox()).x < 1280);
+    assert.ok((await page.evaluate('document.documentElement.scrollWidth')) <= 1280);
+  });
+
+  test('a page that is cut off in its data, or may not run scripts, says so', async () => {
+    const url = write('small', container('small').bytes);
+    const whole = fs.readFileSync(new URL(url), 'utf8');
+    const cut = path.join(folder, 'cut.html');
+    fs.writeFileSync(cut, whole.slice(0, whole.indexOf('id="lodestone-data"') + 5000));
+    const page = await browser.newPage(laptop);
+    await page.goto(pathToFileURL(cut).href);
+    assert.ok(!(await page.isVisible('#waiting')), 'not at once, since most pages open soon');
+    await page.waitForFunction(() => getComputedStyle(document.getElementById('waiting')).visibility === 'visible');
+    assert.match(await page.textContent('#waiting'), /cut off/);
+    assert.ok(!(await page.isVisible('noscript')));
+    const silent = await (await browser.newContext({ ...laptop, javaScriptEnabled: false })).newPage();
+    await silent.goto(url);
+    assert.match(await silent.locator('noscript').innerText(), /scripts are off/);
+    assert.equal(await (await open(url)).locator('#waiting').count(), 0);
+  });
+
+  test('a browser that cannot unpack the data is told from damaged data', async () => {
+    const page = await browser.newPage(laptop);
+    await page.addInitScript(() => delete window.DecompressionStream);
+    await page.goto(write('small', container('small').bytes));
+    await page.waitForSelector('html[data-ready=no]');
+    assert.match(await page.textContent('#problem-text'), /^This browser cannot unpack the data/);
+    assert.equal(await page.textContent('#problem-advice'), 'Open the page in a newer browser.');
+    assert.equal(await page.locator('#waiting').count(), 0);
   });
 
   test('damaged data, another version and the bare template are told apart in words', async () => {

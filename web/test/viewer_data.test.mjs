@@ -2,14 +2,17 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { region_colour } from '../viewer/colours.mjs';
-import { faces_in } from '../viewer/contacts.mjs';
+import { read_page } from '../viewer/container.mjs';
+import { faces_of_objects } from '../viewer/contacts.mjs';
 import { Damaged, decode_labels, decode_particles, decode_positions, decode_topology, Varint_reader } from '../viewer/decode.mjs';
 import { fold, sharp, vertex_normals } from '../viewer/normals.mjs';
 import { outcome_of, runs } from '../viewer/outcome.mjs';
 import { common_ball, Places } from '../viewer/places.mjs';
 import { Player } from '../viewer/player.mjs';
+import { Sharpness } from '../viewer/sharpness.mjs';
 import { Walks } from '../viewer/walks.mjs';
-import { on_grid, particles_section, positions_section, topology_section, varints, zigzag } from './write_container.mjs';
+import { make_container } from './make_page.mjs';
+import { Container_writer, on_grid, particles_section, positions_section, topology_section, varints, zigzag } from './write_container.mjs';
 
 const bytes = (...values) => Uint8Array.from(values);
 
@@ -123,7 +126,7 @@ test('a frame is confirmed, missed, only near, or without collision, and neighbo
 test('a face that intersects one face and is near another is drawn as intersecting', () => {
   const ends = [0, 0, 0, 1, 0, 0];
   const contacts = [[0, 5, 1, 7, ...ends, 1], [0, 5, 1, 8, ...ends], [0, 6, 1, 8, ...ends, 1], [1, 9, 2, 5], [2, 3, 2, 4, ...ends, 1]];
-  const faces = [0, 1, 2].map((object) => faces_in(contacts, object));
+  const faces = faces_of_objects(contacts, 3);
   assert.deepEqual(faces.map(({ intersecting }) => [...intersecting]), [[5], [8, 9], [5]]);
   assert.deepEqual(faces.map(({ near }) => [...near]), [[6], [7], [3, 4]]);
 });
@@ -150,6 +153,57 @@ test('objects without vertices, which have been removed, do not count for what i
   assert.deepEqual(common_ball([removed]), { centre: [0, 0, 0], radius: 1 });
 });
 
+test('a thin part that samples miss is among the vertices that stick out', () => {
+  const count = 5000;
+  const q = new Uint16Array(3 * count).fill(30000);
+  for (const [vertex, place] of [[1234, [65535, 65535, 65535]], [77, [0, 30000, 30000]]]) q.set(place, 3 * vertex);
+  const object = { vertices: count, box: [-1, -1, -1, 1, 1, 1], frames: [new Uint16Array(3 * count).fill(30000), q] };
+  const places = new Places(object, common_ball([object]));
+  const holds = (list, vertex) => list.some((place) => String(place) === String(places.of_vertex(1, vertex)));
+  for (const vertex of [1234, 77]) {
+    assert.ok(!holds(places.samples(400), vertex), 'a part that samples find would test nothing');
+    assert.ok(holds(places.extremes(), vertex));
+  }
+  assert.deepEqual(new Places({ vertices: 0, box: object.box, frames: [new Uint16Array()] }, common_ball([object])).extremes(), []);
+});
+
+/** Calls what waits for the next picture, after some milliseconds. */
+async function in_fake_time(act) {
+  const saved = { requestAnimationFrame: globalThis.requestAnimationFrame, now: performance.now };
+  let now = 0;
+  const waiting = [];
+  globalThis.requestAnimationFrame = (call) => waiting.push(call);
+  performance.now = () => now;
+  try {
+    await act((milliseconds) => {
+      now += milliseconds;
+      waiting.splice(0).forEach((call) => call(now));
+    }, () => now);
+  } finally {
+    globalThis.requestAnimationFrame = saved.requestAnimationFrame;
+    performance.now = saved.now;
+  }
+}
+
+test('a machine is slow if pictures take long, not if they are seldom', async () => {
+  await in_fake_time((pass, now) => {
+    const draw = (sharpness, takes, waits) => {
+      for (let i = 0; i < 12; ++i) {
+        sharpness.next_draw(now());
+        pass(takes);
+        pass(waits);
+      }
+      clearTimeout(sharpness.timer);
+      return sharpness.ratio(100, 100);
+    };
+    const made = () => new Sharpness(() => true, () => {});
+    assert.equal(draw(made(), 16, 1000), 2);
+    assert.equal(draw(made(), 80, 0), 1);
+    const resting = new Sharpness(() => false, () => {});
+    assert.equal(draw(resting, 80, 0), 2);
+  });
+});
+
 test('a player that pauses and plays within one picture is as fast as before', () => {
   const waiting = new Map();
   let last = 0;
@@ -172,5 +226,58 @@ test('a player that pauses and plays within one picture is as fast as before', (
     assert.equal(waiting.size, 0);
   } finally {
     Object.assign(globalThis, { requestAnimationFrame, cancelAnimationFrame });
+  }
+});
+
+/** A page of one triangle that moves through two frames, with changes. */
+function small_page({ header = {}, object = {}, sections = {} }) {
+  const writer = new Container_writer();
+  const add = (name, content) => writer.add(name, sections[name] ?? content);
+  const one = {
+    name: 'one', vertices: 3, triangles: 1, box: [0, 0, 0, 1, 1, 1], topology: add('topology 0', topology_section([0, 1, 2])),
+    positions: add('positions 0', positions_section([new Uint16Array(9), new Uint16Array(9)])), particles: null,
+    partitions: [{ frame: 0, regions: 1, labels: add('labels 0.0', varints([0, 0, 0])) }], ...object,
+  };
+  const stage = { microseconds: { refit: 1 }, positive: false, found: false, nearest: 1 };
+  const whole = {
+    frames: 2, objects: [one, { ...one, name: 'two' }], numbers: null, stages: add('stages', [stage, stage]),
+    candidates: add('candidates', [[], [[0, 0, 1, 0, 0.5]]]), contacts: add('contacts', [[[0, 0, 1, 0]], [[0, 0, 1, 0, 0, 0, 0, 1, 1, 1, 1]]]), ...header,
+  };
+  if (header.sections === null) writer.sections = null;
+  return read_page(writer.finish(whole).toString('base64'));
+}
+
+test('whatever a damaged page holds, its reader is told what is wrong', async () => {
+  assert.equal((await small_page({})).contacts[1][0].length, 11);
+  const cases = [
+    [{ header: { frames: -1 } }, /^header: no frames/],
+    [{ header: { frames: 1e12 } }, /^header: no frames/],
+    [{ header: { sections: null } }, /^header: no frames or no sections$/],
+    [{ header: { frames: 1e6 } }, /^positions 0: ends early$/],
+    [{ object: { vertices: 1e9 } }, /^labels 0.0: ends early$/],
+    [{ object: { triangles: 1e9 } }, /^topology 0: ends early$/],
+    [{ object: { vertices: null } }, /^header: object one has no size$/],
+    [{ object: { box: [0, 0, 0] } }, /^header: object one has no size$/],
+    [{ object: { partitions: [{ frame: 0, regions: 1, labels: 'none' }] } }, /^none: no such section$/],
+    [{ sections: { stages: [{}, {}] } }, /^stages: frame 0 has no times$/],
+    [{ sections: { stages: [null, null] } }, /^stages: frame 0 has no times$/],
+    [{ sections: { stages: [] } }, /^stages: not one entry/],
+    [{ sections: { candidates: [[], 7] } }, /^candidates: frame 1 is not a list$/],
+    [{ sections: { candidates: [[], [[0, 0, 2, 0, 1]]] } }, /^candidates: row 0 of frame 1 cannot be read$/],
+    [{ sections: { candidates: [[[0, -1, 1, 0, 1]], []] } }, /^candidates: row 0 of frame 0 cannot be read$/],
+    [{ sections: { contacts: [[], [[0, 0, 1, 0], [0, 0, 1, 1]]] } }, /^contacts: row 1 of frame 1 cannot be read$/],
+    [{ sections: { contacts: [[[0, 0, 5, 0]], []] } }, /^contacts: row 0 of frame 0 cannot be read$/],
+    [{ sections: { contacts: [[[0, 0, 1, 0, 1, 2]], []] } }, /^contacts: row 0 of frame 0 cannot be read$/],
+    [{ sections: { contacts: [[null], []] } }, /^contacts: row 0 of frame 0 cannot be read$/],
+  ];
+  for (const [change, message] of cases)
+    await assert.rejects(small_page(change), (error) => error instanceof Damaged && message.test(error.message) || assert.fail(`${JSON.stringify(change)}: ${error.message}`));
+});
+
+test('every kind of page is read', async () => {
+  for (const kind of ['partition', 'experiment', 'exact', 'near', 'sampled']) {
+    const { bytes, log } = make_container(kind);
+    const page = await read_page(bytes.toString('base64'));
+    if (kind === 'near') assert.deepEqual(page.contacts, log.map(({ contacts }) => contacts));
   }
 });

@@ -8,20 +8,20 @@ export const is_apart = (contact) => contact[10] === 1;
 export const has_ends = (contact) => contact.length >= 10;
 
 /**
- * The faces of one object in the contacts of a frame. A face that intersects one and is near another is in
+ * The faces of each object in the contacts of a frame. A face that intersects one and is near another is in
  * `intersecting` alone.
  * @param {number[][]} contacts
- * @param {number} object
- * @returns {{intersecting: Set<number>, near: Set<number>}}
+ * @param {number} objects
+ * @returns {{intersecting: Set<number>, near: Set<number>}[]}
  */
-export function faces_in(contacts, object) {
-  const [intersecting, near] = [new Set(), new Set()];
+export function faces_of_objects(contacts, objects) {
+  const found = Array.from({ length: objects }, () => ({ intersecting: new Set(), near: new Set() }));
   for (const contact of contacts) {
     const [a, face_a, b, face_b] = contact;
-    const faces = is_apart(contact) ? near : intersecting;
-    if (a === object) faces.add(face_a);
-    if (b === object) faces.add(face_b);
+    const kind = is_apart(contact) ? 'near' : 'intersecting';
+    found[a][kind].add(face_a);
+    found[b][kind].add(face_b);
   }
-  for (const face of intersecting) near.delete(face);
-  return { intersecting, near };
+  for (const { intersecting, near } of found) for (const face of intersecting) near.delete(face);
+  return found;
 }

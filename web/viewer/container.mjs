@@ -5,6 +5,10 @@ import { Damaged, decode_labels, decode_particles, decode_positions, decode_topo
 const magic = 'LDSTPAGE';
 const version = 1;
 const preamble = 16;
+const most_frames = 1e7;
+
+/** An error of a browser that lacks what the page needs, with a message for its reader. */
+export class Too_old extends Error {}
 
 /**
  * @typedef {object} Partition
@@ -52,19 +56,20 @@ export async function read_page(text) {
   };
   const objects = [];
   for (const object of header.objects ?? []) objects.push(await read_object(object, header.frames, section));
-  const page = {
+  return {
     header,
     objects,
     numbers: await json(header.numbers, (lines) => lines.split('\n').filter(Boolean)),
-    stages: await json(header.stages),
-    candidates: await json(header.candidates),
-    contacts: await json(header.contacts),
+    stages: checked_stages(await json(header.stages), header.stages),
+    candidates: checked_rows(await json(header.candidates), header.candidates, (row) => is_candidate(row, objects)),
+    contacts: checked_rows(await json(header.contacts), header.contacts, (row) => is_contact(row, objects)),
   };
-  return page;
 }
 
 async function read_object(object, frames, section) {
-  const { vertices, triangles } = object;
+  const { vertices, triangles, box } = object;
+  if (!is_index(vertices, Infinity) || !is_index(triangles, Infinity) || box?.length !== 6)
+    throw new Damaged(`header: object ${object.name} has no size`);
   const partitions = [];
   for (const { frame, regions, labels } of object.partitions ?? [])
     partitions.push({ frame, regions, labels: decode_labels(await section(labels), vertices, regions, labels) });
@@ -76,6 +81,35 @@ async function read_object(object, frames, section) {
     particles: object.particles ? decode_particles(await section(object.particles), frames, vertices, object.particles) : null,
   };
 }
+
+function checked_stages(stages, name) {
+  const bad = stages?.findIndex((stage) => !is_object(stage) || !is_object(stage.microseconds)) ?? -1;
+  if (bad >= 0) throw new Damaged(`${name}: frame ${bad} has no times`);
+  return stages;
+}
+
+/** @param {(row: any) => boolean} is_right  of each row of each frame */
+function checked_rows(frames, name, is_right) {
+  frames?.forEach((rows, frame) => {
+    if (!Array.isArray(rows)) throw new Damaged(`${name}: frame ${frame} is not a list`);
+    const bad = rows.findIndex((row) => !Array.isArray(row) || !is_right(row));
+    if (bad >= 0) throw new Damaged(`${name}: row ${bad} of frame ${frame} cannot be read`);
+  });
+  return frames;
+}
+
+const is_object = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
+const is_index = (value, count) => Number.isInteger(value) && value >= 0 && value < count;
+
+/** Regions are looked up in the frame, where they may have none. */
+const is_candidate = ([a, p, b, q], objects) =>
+  is_index(a, objects.length) && is_index(b, objects.length) && is_index(p, Infinity) && is_index(q, Infinity);
+
+/** Two faces; after them the six coordinates of two ends, or nothing; after these 1 if the faces are apart. */
+const is_contact = (row, objects) => {
+  const [a, face_a, b, face_b, ...rest] = row;
+  return is_index(face_a, objects[a]?.triangles) && is_index(face_b, objects[b]?.triangles) && [0, 6, 7].includes(rest.length);
+};
 
 function from_base64(text) {
   const trimmed = text.trim();
@@ -99,21 +133,29 @@ function split_container(bytes) {
   const end = preamble + view.getUint32(12, true);
   if (end > bytes.length) throw new Damaged('the block of data ends early');
   const header = parse_or_complain('header', () => JSON.parse(new TextDecoder().decode(bytes.subarray(preamble, end))));
-  if (!Number.isInteger(header?.frames) || typeof header.sections !== 'object') throw new Damaged('header: no frames or no sections');
+  if (!is_object(header) || !is_index(header.frames, most_frames) || !is_object(header.sections)) throw new Damaged('header: no frames or no sections');
   return { header, body: bytes.subarray(end) };
 }
 
 async function inflate(name, place, body) {
   if (!place) throw new Damaged(`${name}: no such section`);
+  if (!is_index(place.offset, Infinity) || !is_index(place.bytes, Infinity)) throw new Damaged(`${name}: no such section`);
   if (place.offset + place.bytes > body.length) throw new Damaged(`${name}: ends early`);
-  if (typeof DecompressionStream === 'undefined') throw new Damaged('this browser is too old: it lacks DecompressionStream');
   const packed = new Blob([body.subarray(place.offset, place.offset + place.bytes)]);
-  const stream = packed.stream().pipeThrough(new DecompressionStream('deflate-raw'));
+  const stream = packed.stream().pipeThrough(raw_inflater());
   const content = await new Response(stream).arrayBuffer().catch(() => {
     throw new Damaged(`${name}: cannot be inflated`);
   });
   if (content.byteLength !== place.raw) throw new Damaged(`${name}: ${content.byteLength} bytes, expected ${place.raw}`);
   return new Uint8Array(content);
+}
+
+function raw_inflater() {
+  try {
+    return new DecompressionStream('deflate-raw');
+  } catch {
+    throw new Too_old('this browser cannot unpack the data: it is too old');
+  }
 }
 
 function parse_or_complain(name, parse) {

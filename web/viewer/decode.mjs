@@ -27,6 +27,11 @@ export class Varint_reader {
     return n % 2 === 0 ? n / 2 : -(n + 1) / 2;
   }
 
+  /** Checks, before room is made for them, that so many integers can follow. */
+  expect(count) {
+    if (!(count <= this.bytes.length - this.at)) throw new Damaged(`${this.name}: ends early`);
+  }
+
   /** Checks that no bytes are left: otherwise the counts of the header are wrong. */
   finish() {
     if (this.at !== this.bytes.length) throw new Damaged(`${this.name}: ${this.bytes.length - this.at} bytes too many`);
@@ -49,8 +54,9 @@ export class Varint_reader {
 
 /** @returns {Uint32Array} corners, three per face */
 export function decode_topology(bytes, triangles, vertices, name) {
-  const corners = new Uint32Array(3 * triangles);
   const reader = new Varint_reader(bytes, name);
+  reader.expect(3 * triangles);
+  const corners = new Uint32Array(3 * triangles);
   let corner = 0;
   for (let i = 0; i < 3 * triangles; ++i) {
     corner += reader.next_signed();
@@ -64,6 +70,7 @@ export function decode_topology(bytes, triangles, vertices, name) {
 /** @returns {Uint16Array[]} per frame x, y, z of each vertex on the grid of the object's box */
 export function decode_positions(bytes, frames, vertices, name) {
   const reader = new Varint_reader(bytes, name);
+  reader.expect(3 * vertices * frames);
   const decoded = Array.from({ length: frames }, () => new Uint16Array(3 * vertices));
   const continuations = [
     (q, i) => (i < 3 ? 0 : q[i - 3]),
@@ -85,8 +92,9 @@ export function decode_positions(bytes, frames, vertices, name) {
 
 /** @returns {Uint32Array} the region of each vertex */
 export function decode_labels(bytes, vertices, regions, name) {
-  const labels = new Uint32Array(vertices);
   const reader = new Varint_reader(bytes, name);
+  reader.expect(vertices);
+  const labels = new Uint32Array(vertices);
   for (let i = 0; i < vertices; ++i) {
     labels[i] = reader.next();
     if (labels[i] >= regions) throw new Damaged(`${name}: region ${labels[i]} of ${regions}`);
@@ -100,7 +108,7 @@ export function decode_particles(bytes, frames, vertices, name) {
   const reader = new Varint_reader(bytes, name);
   const decoded = Array.from({ length: frames }, () => {
     const count = reader.next();
-    if (count > bytes.length) throw new Damaged(`${name}: ends early`);
+    reader.expect(count);
     return Uint32Array.from({ length: count }, () => {
       const vertex = reader.next();
       if (vertex >= vertices) throw new Damaged(`${name}: vertex ${vertex} of ${vertices}`);

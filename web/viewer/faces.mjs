@@ -48,6 +48,8 @@ export class Faces {
   show(frame, faces) {
     const { corners } = this.places.object;
     const list = [...faces];
+    this.group.children.forEach((mesh) => (mesh.visible = list.length > 0));
+    if (list.length === 0) return;
     if (3 * list.length > this.geometry.attributes.position.count) this.#grow(3 * list.length);
     const { position } = this.geometry.attributes;
     list.forEach((face, i) => {

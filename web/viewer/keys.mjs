@@ -4,6 +4,8 @@ import { by_id, element } from './dom.mjs';
 import { layers } from './layers.mjs';
 import { runs } from './outcome.mjs';
 
+const repeating = new Set(['arrowleft', 'arrowright', '+', '=', '-', ...'adwsqe']);
+
 /**
  * @param {{player: import('./player.mjs').Player, shown: import('./layers.mjs').Shown, reset: () => void,
  *          turn: (angle: number, rise: number, nearer: number) => void}} parts
@@ -38,11 +40,12 @@ export function listen_to_keys({ player, shown, reset, turn }) {
     if (shown.available.some((layer) => layer.key === key)) acts[String(i + 1)] = () => shown.set_layer(key, !shown.layers[key]);
   });
   document.addEventListener('keydown', (event) => {
-    const act = acts[event.key];
+    const act = acts[event.key] ?? acts[event.key.toLowerCase()];  // Caps Lock makes capital letters.
     if (!act || event.ctrlKey || event.metaKey || event.altKey || is_for_element(event)) return;
     if (dialog.open && event.key !== '?') return;
     event.preventDefault();
-    act(event);
+    // A key that is held repeats its steps, but does not play and pause by turns.
+    if (!event.repeat || repeating.has(event.key.toLowerCase())) act(event);
   });
   by_id('help-button').addEventListener('click', () => dialog.showModal());
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Runs in the page: reads the block of data and puts the parts together.
-import { read_page } from './container.mjs';
+import { read_page, Too_old } from './container.mjs';
 import { Damaged } from './decode.mjs';
 import { by_id, number_text } from './dom.mjs';
 import { listen_to_keys } from './keys.mjs';
@@ -20,6 +20,7 @@ async function main() {
   const began = performance.now();
   const page = await read_page(by_id('lodestone-data').textContent);
   by_id('lodestone-data').textContent = '';  // Megabytes of text that are not read again.
+  by_id('waiting').remove();
   const stats = { decode_ms: performance.now() - began };
   const player = new Player(page.header);
   const shown = new Shown(page);
@@ -40,7 +41,7 @@ async function main() {
 const counted_frames = (count) => `${number_text(count)} ${count === 1 ? 'frame' : 'frames'}`;
 
 function show_title({ header, objects }) {
-  by_id('title').textContent = header.title || document.title;
+  by_id('title').textContent = by_id('title').title = header.title || document.title;
   const facts = [];
   if (header.mode) facts.push(`mode ${header.mode}`);
   if (header.strategy) facts.push(`regions by ${header.strategy}`);
@@ -83,13 +84,20 @@ function show_geometry(page, player, shown, theme) {
   return view;
 }
 
+const sentence = (text) => `${text}.`.replace(/^./, (c) => c.toUpperCase());
+
+/** What happened, and what helps. */
+function words_for(error) {
+  if (error instanceof Damaged) return [sentence(error.message), 'The file may have been cut off or altered on its way; write or copy it again.'];
+  if (error instanceof Too_old) return [sentence(error.message), 'Open the page in a newer browser.'];
+  return [`The viewer failed: ${error.message}`, 'This is a fault of the viewer.'];
+}
+
 function complain(error) {
-  const damaged = error instanceof Damaged;
+  by_id('waiting')?.remove();
+  by_id('viewer').hidden = true;
   by_id('problem').hidden = false;
-  by_id('problem-text').textContent = damaged ? `${error.message}.`.replace(/^./, (c) => c.toUpperCase()) : `The viewer failed: ${error.message}`;
-  by_id('problem-advice').textContent = damaged
-    ? 'The file may have been cut off or altered on its way; write or copy it again.'
-    : 'This is a fault of the viewer.';
+  [by_id('problem-text').textContent, by_id('problem-advice').textContent] = words_for(error);
   document.documentElement.dataset.ready = 'no';
 }
 

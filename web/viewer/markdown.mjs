@@ -64,7 +64,7 @@ function list(lines, at) {
 
 function paragraph(lines, at) {
   let end = at + 1;
-  while (end < lines.length && lines[end].trim() !== '' && !/^(\s*```|#{1,6}\s)/.test(lines[end]) && !is_row(lines[end])) ++end;
+  while (end < lines.length && lines[end].trim() !== '' && !/^(\s*```|#{1,6}\s|\s*([-*]|1\.)\s)/.test(lines[end]) && !is_row(lines[end])) ++end;
   return [element('p', {}, ...inline(lines.slice(at, end).join(' '))), end];
 }
 

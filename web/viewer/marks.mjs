@@ -2,7 +2,7 @@
 // Marks on the surfaces in one frame: particles, trails, candidate pairs, contacts.
 import { Group } from 'three';
 import { marks } from './colours.mjs';
-import { faces_in, has_ends, is_apart } from './contacts.mjs';
+import { faces_of_objects, has_ends, is_apart } from './contacts.mjs';
 import { Faces } from './faces.mjs';
 import { Segments } from './segments.mjs';
 import { Walks } from './walks.mjs';
@@ -30,6 +30,11 @@ export class Marks {
 
   set_screen(width, height, ratio) {
     Object.values(this.lines).forEach((lines) => lines.set_screen(width, height, ratio));
+  }
+
+  /** @param {number} near  distance from the camera at which the picture begins */
+  set_near(near) {
+    Object.values(this.lines).forEach((lines) => lines.set_near(near));
   }
 
   /**
@@ -85,14 +90,13 @@ export class Marks {
 
   #show_contacts(frame, layers, objects) {
     const contacts = this.page.contacts?.[frame] ?? [];
+    const found = layers.faces || layers.near ? faces_of_objects(contacts, objects.length) : [];
     objects.forEach(({ visible }, i) => {
       const [faces, near_faces] = [this.faces[i], this.near_faces[i]];
       faces.group.visible = layers.faces && visible;
       near_faces.group.visible = layers.near && visible;
-      if (!faces.group.visible && !near_faces.group.visible) return;
-      const { intersecting, near } = faces_in(contacts, i);
-      if (faces.group.visible) faces.show(frame, intersecting);
-      if (near_faces.group.visible) near_faces.show(frame, near);
+      if (faces.group.visible) faces.show(frame, found[i].intersecting);
+      if (near_faces.group.visible) near_faces.show(frame, found[i].near);
     });
     const drawn = contacts.filter((contact) => has_ends(contact) && (objects[contact[0]].visible || objects[contact[2]].visible));
     if (layers.segments) this.lines.segments.set(drawn.filter((contact) => !is_apart(contact)).map((contact) => this.#between_ends(contact)));

@@ -124,10 +124,12 @@ function faces_text({ faces, intersects, collides, capped }) {
  * @param {boolean} lists_all  whether all contacts were asked for, so that their number says something
  */
 function pair_row(otherwise, lists_all) {
-  const name = element('span', { className: 'name' });
+  const [a, b] = [element('bdi'), element('bdi')];  // Names may be in scripts of either direction.
+  const name = element('span', { className: 'name' }, a, ' – ', b);
   const state = element('span', { className: 'state' });
   const set = (pair) => {
-    set_text(name, `${pair.a} – ${pair.b}`);
+    set_text(a, pair.a);
+    set_text(b, pair.b);
     const missed = pair.truth && !pair.collides;
     const faces = lists_all ? faces_text(pair) : '';
     const inside = pair.inside ? `, ${pair.inside} inside` : '';
@@ -143,6 +145,7 @@ function stage_row(key, most) {
   const bar = element('i', { className: `bar ${key}` });
   const set = (microseconds) => {
     set_text(value, `${number_text(microseconds)} µs`);
+    bar.classList.toggle('cut', microseconds > most);
     bar.style.width = `${100 * Math.min(1, Math.sqrt(microseconds / most))}%`;
   };
   const name = key === 'sum' ? 'All stages' : stage_names[key] ?? words_of(key);

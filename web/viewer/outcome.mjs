@@ -44,12 +44,14 @@ export function frame_kinds(page) {
   const kinds = [];
   const add = (kind, name, about, is) => kinds.push({ kind, name, about, is });
   const outcome = (kind) => (frame) => outcome_of(stages[frame]) === kind;
-  if (stages) {
+  if (stages && misses_nothing(page) && !stages.some((stage) => outcome_of(stage) === 'missed')) {
+    add('confirmed', 'colliding', 'surfaces intersect', outcome('confirmed'));
+  } else if (stages) {
     add('positive', 'colliding', 'surfaces intersect', (frame) => stages[frame].positive);
     add('confirmed', 'confirmed', 'the run found a collision', outcome('confirmed'));
     add('missed', 'missed', 'surfaces intersect, and the run did not find it', outcome('missed'));
-    if (has_tolerance(page)) add('near', 'only near', 'objects are nearer than the tolerance, and do not collide', outcome('near'));
   }
+  if (has_tolerance(page)) add('near', 'only near', 'objects are nearer than the tolerance, and do not collide', outcome('near'));
   const anew = new Set(repartitions(page));
   if (anew.size > 0) add('anew', anew.size === 1 ? 'repartition' : 'repartitions', 'an object gets new regions', (frame) => anew.has(frame));
   return kinds;

@@ -24,7 +24,8 @@ export function make_panel(page, shown, frame) {
       translucent.disabled = !visible.checked;
     });
   });
-  return () => rows.forEach(({ facts }, i) => set_text(facts, object_facts(page.objects[i], frame(), page.header.states)));
+  const facts_of = page.objects.map((object) => object_facts(object, page.header.states));
+  return () => rows.forEach(({ facts }, i) => set_text(facts, facts_of[i](frame())));
 }
 
 function layer_row({ key, name, about }, shown) {
@@ -62,13 +63,18 @@ function object_row({ name }, i, shown) {
   return { row, facts, visible: visible.box, translucent: translucent.box };
 }
 
-function object_facts({ vertices, triangles, partitions, particles }, frame, states) {
-  const facts = [`${number_text(vertices)} vertices`, `${number_text(triangles)} triangles`];
-  const partition = partitions.findLast((candidate) => candidate.frame <= frame);
-  if (partition && states) facts.push(...share_of_states(partition.labels, states));
-  else if (partition) facts.push(`${number_text(partition.regions)} regions`);
-  else if (particles) facts.push(`${number_text(particles[frame].length)} particles`);
-  return facts.join(', ');
+/** @returns {(frame: number) => string} what is said of an object; counted anew only with a new partition */
+function object_facts({ vertices, triangles, partitions, particles }, states) {
+  const size = `${number_text(vertices)} vertices, ${number_text(triangles)} triangles`;
+  let known, text = size;
+  return (frame) => {
+    const partition = partitions.findLast((candidate) => candidate.frame <= frame);
+    if (!partition) return particles ? `${size}, ${number_text(particles[frame].length)} particles` : size;
+    if (partition === known) return text;
+    known = partition;
+    const parts = states ? share_of_states(partition.labels, states) : [`${number_text(partition.regions)} regions`];
+    return (text = [size, ...parts].join(', '));
+  };
 }
 
 /** @returns {string[]} the share of the vertices that are not in the first state */

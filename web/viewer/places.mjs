@@ -13,6 +13,9 @@ export function common_ball(objects) {
   return { centre: least.map((x, axis) => x / 2 + most[axis] / 2), radius: radius || 1 };
 }
 
+/** The axes and the diagonals of a cube. */
+const directions = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1], [1, 1, -1], [1, -1, 1], [-1, 1, 1]];
+
 /** Positions on one object. */
 export class Places {
   /** @param {import('./container.mjs').Page_object} object @param {{centre: number[], radius: number}} ball */
@@ -39,6 +42,27 @@ export class Places {
     // Steps of the golden section sample every frame and every part of the mesh.
     return Array.from({ length: count }, (_, i) =>
       this.of_vertex(Math.floor((i / count) * frames.length), Math.floor(((i * 0.6180339887498949) % 1) * vertices)));
+  }
+
+  /** Positions of the vertices that stick out farthest, in some frames, lest samples miss a thin part. */
+  extremes(most_frames = 8) {
+    const { frames, vertices } = this.object;
+    if (vertices === 0) return [];
+    const count = Math.min(most_frames, frames.length);
+    const chosen = Array.from({ length: count }, (_, i) => Math.round((i * (frames.length - 1)) / Math.max(1, count - 1)));
+    return chosen.flatMap((frame) => directions.flatMap((d) => this.#ends_along(d, frames[frame]).map((v) => this.of_vertex(frame, v))));
+  }
+
+  /** The least and the greatest vertex along a direction. */
+  #ends_along(direction, q) {
+    const [x, y, z] = direction.map((d, axis) => d * this.cell[axis]);
+    let [least, most, first, last] = [Infinity, -Infinity, 0, 0];
+    for (let v = 0, i = 0; i < q.length; ++v, i += 3) {
+      const along = x * q[i] + y * q[i + 1] + z * q[i + 2];
+      if (along < least) [least, first] = [along, v];
+      if (along > most) [most, last] = [along, v];
+    }
+    return [first, last];
   }
 
   /** The partition that applies to a frame. */

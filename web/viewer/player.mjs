@@ -37,7 +37,7 @@ export class Player {
 
   goto(frame) {
     const wanted = this.#clamped(Math.round(frame));
-    if (wanted === this.frame) return;
+    if (wanted === this.frame || Number.isNaN(wanted)) return;
     this.frame = wanted;
     this.#changed();
   }

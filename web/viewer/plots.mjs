@@ -43,7 +43,8 @@ export class Plots {
     by_id(over_frames ? 'frame-plots' : 'own-plots').append(
       element('figure', {}, element('figcaption', {}, element('h3', { textContent: title }), element('p', { textContent: description })), frame));
     if (over_frames) frame.addEventListener('click', (event) => this.#jump(plot, event));
-    const plot = { place, rule, spec: over_frames ? { ...spec, height: 150 } : spec };
+    const described = { ...spec, description: `${title}. ${description}` };  // what a screen reader says of the picture
+    const plot = { place, rule, spec: over_frames ? { ...described, height: 150 } : described };
     return plot;
   }
 

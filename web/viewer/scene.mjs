@@ -10,6 +10,7 @@ import { Surface } from './surface.mjs';
 
 const field_of_view = 30;
 const margin = 1.12;
+const nearest_visible = 0.01;  // of the ball's radius; less once the camera is nearer
 const view_from = new Vector3(0.55, -1, 0.5).normalize();
 
 /** @param {HTMLCanvasElement} canvas @returns {WebGL2RenderingContext | null} */
@@ -36,23 +37,26 @@ export class View {
     this.sharpness = new Sharpness(() => playing() || this.held, () => (this.resized = true, this.#draw_soon()));
     const ball = common_ball(page.objects);
     const places = page.objects.map((object) => new Places(object, ball));
-    this.samples = places.flatMap((of_object) => of_object.samples(400));
+    this.samples = places.flatMap((of_object) => [...of_object.samples(400), ...of_object.extremes()]);
     if (this.samples.length === 0) this.samples.push([0, 0, 0]);
     this.surfaces = page.objects.map((object, i) => new Surface(object, i, places[i], page.header.states));
     this.marks = new Marks(page, places);
     this.scene = new Scene();
     this.scene.add(...this.surfaces.map(({ group }) => group), this.marks.group);
     this.renderer = new WebGLRenderer({ canvas, context });
-    this.camera = new PerspectiveCamera(field_of_view, 1, 0.01, 60);
+    this.camera = new PerspectiveCamera(field_of_view, 1, nearest_visible, 60);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
-    Object.assign(this.controls, { enableDamping: false, minDistance: 0.15, maxDistance: 20 });
+    Object.assign(this.controls, { enableDamping: false, minDistance: 0.002, maxDistance: 20, zoomToCursor: true });
     this.controls.mouseButtons.MIDDLE = MOUSE.PAN;
-    this.controls.addEventListener('change', () => this.#draw_soon());
+    this.controls.addEventListener('change', () => {
+      this.moved ||= this.held;  // A click alone does not move it.
+      this.#draw_soon();
+    });
     this.frame = 0;
     this.stale = true;
-    this.moved = false;
-    this.controls.addEventListener('start', () => (this.moved = this.held = true));
+    this.moved = this.held = false;
+    this.controls.addEventListener('start', () => (this.held = true));
     this.controls.addEventListener('end', () => {
       this.held = false;
       this.#draw_soon();
@@ -123,6 +127,7 @@ export class View {
     this.sharpness.next_draw(begin);
     if (this.resized) this.#set_size();
     if (this.stale) this.#prepare();
+    this.#set_near();
     const prepared = performance.now();
     this.renderer.render(this.scene, this.camera);
     this.stats.draws += 1;
@@ -140,6 +145,15 @@ export class View {
       surface.show(this.frame, layers.wireframe);
       surface.mark([...paired[i]]);
     });
+  }
+
+  /** Small things in a large scene can be seen from nearby, and the depth buffer is as fine as it can be from afar. */
+  #set_near() {
+    const near = Math.min(nearest_visible, this.controls.getDistance() / 10);
+    if (near === this.camera.near) return;
+    this.camera.near = near;
+    this.camera.updateProjectionMatrix();
+    this.marks.set_near(near);
   }
 
   #draw_soon() {

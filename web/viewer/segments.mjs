@@ -89,6 +89,7 @@ export class Segments {
       fade.setXY(i, ...(segment.fade ?? [1, 1]));
     });
     this.geometry.instanceCount = segments.length;
+    this.group.children.forEach((mesh) => (mesh.visible = segments.length > 0));
     [start, end, tint, fade].forEach((attribute) => (attribute.needsUpdate = true));
   }
 
@@ -97,6 +98,11 @@ export class Segments {
     this.uniforms.screen.value.set(width * ratio, height * ratio);
     const smaller = Math.min(1, Math.max(0.7, Math.min(width, height) / 560));  // on a phone
     for (const [name, size] of Object.entries(this.sizes)) this.uniforms[name].value = size * ratio * smaller;
+  }
+
+  /** @param {number} near  distance from the camera at which the picture begins */
+  set_near(near) {
+    this.uniforms.near.value = near;
   }
 
   #grow(count) {

@@ -4,7 +4,7 @@
 const fine = 2;
 const quick = 1;
 const most_pixels = 8e6;
-const slow_ms = 40;      // between two draws
+const slow_ms = 40;      // from a draw until the browser is ready for the next one
 const slow_draws = 5;    // this many in a row mean a slow machine
 const pause_ms = 250;    // after which a still picture is drawn finely
 
@@ -18,7 +18,6 @@ export class Sharpness {
     this.change = change;
     this.quick = false;
     this.slow = 0;
-    this.then = undefined;
   }
 
   /** Whether the picture has its finest resolution. */
@@ -35,16 +34,21 @@ export class Sharpness {
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.#rest(), pause_ms);
     if (!this.moving()) return;
-    if (this.then !== undefined && this.slow < slow_draws) this.slow = now - this.then > slow_ms ? this.slow + 1 : 0;
-    this.then = now;
+    this.#measure(now);
     this.#set(this.slow >= slow_draws);
+  }
+
+  /** The gap between two draws would not do: a page that plays slowly draws seldom on any machine. */
+  #measure(begin) {
+    requestAnimationFrame(() => {
+      if (this.slow < slow_draws) this.slow = performance.now() - begin > slow_ms ? this.slow + 1 : 0;
+    });
   }
 
   #rest() {
     // A motion may end without another draw.
     this.timer = this.moving() ? setTimeout(() => this.#rest(), pause_ms) : undefined;
     if (this.timer !== undefined) return;
-    this.then = undefined;
     this.#set(false);
   }
 

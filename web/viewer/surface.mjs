@@ -104,6 +104,8 @@ export class Surface {
     for (let v = 0; v < vertices; ++v) regions.array.fill(label(v), 3 * v, 3 * v + 3);
     regions.needsUpdate = true;
     this.#copy(Uint32Array.from(copied), label);
+    this.shared.visible = shared > 0;  // Empty meshes would be drawn too.
+    this.copied.visible = copied.length > 0;
     if (partition !== this.partition) this.#set_palette(partition?.regions ?? 1);
     Object.assign(this, { partition, apart });
   }

@@ -18,11 +18,13 @@ export class Timeline {
     this.player = player;
     this.window = [0, player.frames];
     this.pointers = new Map();
-    const lanes = frame_kinds(page).map((lane) => ({ ...lane, runs: runs(player.frames, lane.is) }));
+    const nothing = { kind: 'lane', name: 'frames', about: 'nothing is marked', is: () => false };
+    const kinds = frame_kinds(page);
+    const lanes = (kinds.length > 0 ? kinds : [nothing]).map((lane) => ({ ...lane, runs: runs(player.frames, lane.is) }));
     this.heads = [0, 1].map(() => element('div', { className: 'head' }));
     this.bracket = element('div', { className: 'bracket' });
     this.ticks = element('div', { className: 'ticks' });
-    const outcomes = lanes.filter(({ kind }) => ['confirmed', 'missed', 'near'].includes(kind));
+    const outcomes = lanes.filter(({ kind }) => ['confirmed', 'missed', 'near', 'lane'].includes(kind));
     const overview = bars(player.frames, outcomes.map((lane) => ({ ...lane, top: 0 })), lane_height);
     const distance = lane_height + 2;
     this.detail = bars(player.frames, lanes.map((lane, i) => ({ ...lane, top: 2 + i * distance })), 2 + lanes.length * distance);
@@ -141,7 +143,9 @@ export class Timeline {
   #scrub(track, i, x) {
     this.player.pause();
     const [start, length] = i === 0 ? [0, this.player.frames] : this.window;
-    this.player.goto(Math.min(start + length - 1, Math.max(start, Math.floor(this.#frame_at(track, i, x)))));
+    // Frames that are whole in the window: another would move the window under the pointer, again and again.
+    const [first, last] = [Math.ceil(start - 1e-6), Math.floor(start + length + 1e-6) - 1];
+    this.player.goto(Math.min(last, Math.max(first, Math.floor(this.#frame_at(track, i, x)))));
   }
 
   #pinch(track, event) {
