@@ -379,7 +379,7 @@ def partition(
     **options: Any,
 ) -> Partition: ...
 def strategies() -> Dict[str, str]: ...
-def read_mesh(path: Path, *, max_faces: int = 50000000) -> Animation: ...
+def read_mesh(path: Path, *, max_faces: int = 50000000, max_bytes: int = 17179869184) -> Animation: ...
 def read_animation(
     path: Path,
     *,
@@ -387,6 +387,8 @@ def read_animation(
     animation: Union[int, str] = 0,
     frames_per_second: Optional[float] = None,
     max_faces: int = 50000000,
+    max_bytes: int = 17179869184,
+    max_frames: int = 1000000,
 ) -> Animation: ...
 def write_mesh(path: Path, mesh: Union[Mesh, ArrayLike], faces: Optional[ArrayLike] = None) -> None: ...
 def write_animation(
@@ -403,6 +405,10 @@ def read_scene(
     parts: bool = False,
     allow_outside: bool = False,
     max_faces: int = 50000000,
+    max_bytes: int = 17179869184,
+    max_frames: int = 1000000,
+    max_objects: int = 10000,
+    max_scene_faces: int = 500000000,
 ) -> Scene: ...
 def play(
     scene: Union[Path, Sequence[Path], Scene],
@@ -412,6 +418,10 @@ def play(
     parts: bool = False,
     allow_outside: bool = False,
     max_faces: int = 50000000,
+    max_bytes: int = 17179869184,
+    max_frames: int = 1000000,
+    max_objects: int = 10000,
+    max_scene_faces: int = 500000000,
     **options: Any,
 ) -> Iterator[Frame]: ...
 def page(

@@ -48,21 +48,22 @@ void check_used(const Path& path, const Animation& read, const std::variant<std:
 
 std::shared_ptr<Python_animation> read_animation_file(const Path& path, const std::optional<Path>& mesh,
                                                       const std::variant<std::size_t, std::string>& animation,
-                                                      std::optional<double> frames_per_second, std::size_t max_faces) {
+                                                      std::optional<double> frames_per_second, std::size_t max_faces,
+                                                      std::uintmax_t max_bytes, std::size_t max_frames) {
   refuse_scenes(path);
   const Without_gil without_gil;
   auto read = std::make_shared<Animation>(read_animation(path, {.mesh = mesh.value_or(Path()),
                                                                 .frames_per_second = frames_per_second,
                                                                 .animation = animation,
-                                                                .limits = {.max_faces = max_faces}}));
+                                                                .limits = {max_faces, max_bytes, max_frames}}));
   check_used(path, *read, animation, frames_per_second);
   return std::make_shared<Python_animation>(
       Python_animation{.name = path.filename().string(), .animation = read, .frames = read->motion.frames});
 }
 
 /// A mesh file is an animation of one frame.
-std::shared_ptr<Python_animation> read_mesh_file(const Path& path, std::size_t max_faces) {
-  auto mesh = read_animation_file(path, {}, std::size_t{0}, {}, max_faces);
+std::shared_ptr<Python_animation> read_mesh_file(const Path& path, std::size_t max_faces, std::uintmax_t max_bytes) {
+  auto mesh = read_animation_file(path, {}, std::size_t{0}, {}, max_faces, max_bytes, Mesh_file_options().max_frames);
   if (mesh->animation->faces.empty()) throw Bad_mesh(path.string() + ": a point cache has no faces");
   return mesh;
 }
@@ -83,14 +84,18 @@ struct Python_scene {
 };
 
 Python_scene read_scene_file(const std::variant<Path, std::vector<Path>>& path, bool components, bool parts,
-                             bool allow_outside, std::size_t max_faces) {
+                             bool allow_outside, std::size_t max_faces, std::uintmax_t max_bytes,
+                             std::size_t max_frames, std::size_t max_objects, std::size_t max_scene_faces) {
   const Without_gil without_gil;
   const auto* const one = std::get_if<Path>(&path);
   const auto inputs = one != nullptr ? std::vector{*one} : std::get<std::vector<Path>>(path);
   if (inputs.empty()) throw Bad_argument("expected at least one path");
-  Scene scene = read_inputs(inputs, {.allow_outside = allow_outside, .limits = {.max_faces = max_faces}});
-  if (parts) separate(scene, Separate::parts);
-  if (components) separate(scene, Separate::components);
+  Scene scene = read_inputs(inputs, {.allow_outside = allow_outside,
+                                     .limits = {max_faces, max_bytes, max_frames},
+                                     .max_objects = max_objects,
+                                     .max_scene_faces = max_scene_faces});
+  if (parts) separate(scene, Separate::parts, max_objects);
+  if (components) separate(scene, Separate::components, max_objects);
   Python_scene read{.name = scene.name, .description = scene.description, .frames = scene.frames};
   for (const auto& object : scene.objects)
     read.objects.push_back(std::make_shared<Python_animation>(
@@ -175,16 +180,19 @@ void write_mesh_file(const Path& path, const py::object& mesh, const py::object&
 }  // namespace
 
 void add_files(py::module_& module) {
-  const std::size_t max_faces = Mesh_file_options().max_faces;
-  module.def("read_mesh", read_mesh_file, py::arg("path"), py::kw_only(), py::arg("max_faces") = max_faces,
+  const Scene_options usual;
+  const Mesh_file_options& limits = usual.limits;
+  module.def("read_mesh", read_mesh_file, py::arg("path"), py::kw_only(), py::arg("max_faces") = limits.max_faces,
+             py::arg("max_bytes") = limits.max_bytes,
              "Reads a mesh: OFF, OBJ, PLY, STL, glTF, MD2, MD3. An Animation, whose `vertices` are those of the first "
-             "frame, of a glTF file with\nanimations of the first one.\nmax_faces: a file with more is refused. Raises BadMesh, with file, line and cause.");
+             "frame, of a glTF file with\nanimations of the first one.\nmax_faces, max_bytes: a file with more is refused. Raises BadMesh, with file, line and cause.");
   module.def("read_animation", read_animation_file, py::arg("path"), py::kw_only(), py::arg("mesh") = py::none(),
              py::arg("animation") = std::size_t{0}, py::arg("frames_per_second") = py::none(),
-             py::arg("max_faces") = max_faces,
+             py::arg("max_faces") = limits.max_faces, py::arg("max_bytes") = limits.max_bytes,
+             py::arg("max_frames") = limits.max_frames,
              "Reads an animation: a pattern of mesh files such as 'cloth_*.obj', a point cache (.pc2, .mdd) with its `mesh`, "
              "glTF,\nMD2, MD3, or a mesh. animation: index or name in a glTF file. frames_per_second: of a glTF animation.\n"
-             "max_faces: a file with more is refused. Raises BadMesh, BadMotion.");
+             "max_faces, max_bytes, max_frames: a file with more is refused. Raises BadMesh, BadMotion.");
   module.def("write_mesh", write_mesh_file, py::arg("path"), py::arg("mesh"), py::arg("faces") = py::none(),
              "Writes a mesh: .obj, .off, .ply, .stl, .gltf or .glb. The file appears whole or not at all.\n"
              "mesh: vertices, an array (V, 3), with `faces`; or an object that has both.");
@@ -217,12 +225,15 @@ void add_files(py::module_& module) {
                        std::to_string(self.frames) + " frames>");
       });
   module.def("read_scene", read_scene_file, py::arg("path"), py::kw_only(), py::arg("components") = false,
-             py::arg("parts") = false, py::arg("allow_outside") = false, py::arg("max_faces") = max_faces,
+             py::arg("parts") = false, py::arg("allow_outside") = false, py::arg("max_faces") = limits.max_faces,
+             py::arg("max_bytes") = limits.max_bytes, py::arg("max_frames") = limits.max_frames,
+             py::arg("max_objects") = usual.max_objects, py::arg("max_scene_faces") = usual.max_scene_faces,
              "Reads a scene.\npath: a scene file (.json), or meshes and animations: one path or a list, as the program's `detect` "
              "takes them,\nsuch as 'cloth_*.obj' or 'cloth.obj+cloth.pc2'. components: the connected components of each object "
              "are objects\nof their own, named NAME_1, NAME_2 and so on. parts: so are the objects of an OBJ file and the nodes of a glTF file, "
              "with\nthe names that they have there. allow_outside: a scene may name files outside its folder.\n"
-             "max_faces: of each file. Raises BadScene, BadMesh, BadMotion.");
+             "max_faces, max_bytes: of each file; max_frames, max_objects, max_scene_faces: of the whole. Raises BadScene, "
+             "BadMesh, BadMotion.");
 }
 
 }  // namespace lodestone::python

@@ -16,11 +16,28 @@ namespace {
 /// Limits the weight so that squared weighted vectors cannot overflow.
 constexpr double largest_normal_weight = 1e6;
 
-void add_max_faces(CLI::App& app, Mesh_file_options& limits) {
-  app.add_option("--max-faces", limits.max_faces, "Refuse files with more faces, before memory is taken for them")
-      ->check(CLI::Range(std::size_t{1}, Mesh_file_options().max_faces))
+void add_limit(CLI::App& app, const char* name, std::size_t& limit, const char* what) {
+  app.add_option(name, limit, what)
+      ->check(CLI::Range(std::size_t{1}, limit))
       ->type_name("N")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->group("Limits of the input");
+}
+
+void add_limits(CLI::App& app, Scene_options& reading) {
+  add_limit(app, "--max-faces", reading.limits.max_faces,
+            "Refuse files with more faces, before memory is taken for them");
+  add_limit(app, "--max-scene-faces", reading.max_scene_faces, "Refuse objects with more faces together");
+  add_limit(app, "--max-objects", reading.max_objects, "Refuse scenes of more objects");
+  add_limit(app, "--max-frames", reading.limits.max_frames,
+            "Refuse scenes, glTF animations and numbered files of more frames");
+  app.add_option("--max-bytes", reading.limits.max_bytes,
+                 "Refuse longer mesh files, and buffers of a glTF file that are longer together; units such as 200MB")
+      ->transform(CLI::AsSizeValue(false).description(""))
+      ->check(CLI::Range(std::uintmax_t{1}, std::numeric_limits<std::uintmax_t>::max()).description(""))
+      ->type_name("SIZE")
+      ->default_str("16GB")
+      ->group("Limits of the input");
 }
 
 }  // namespace
@@ -74,7 +91,7 @@ void add_format(CLI::App& app, std::string& format) {
 
 void add_reading(CLI::App& app, Scene_options& reading) {
   app.add_flag("--allow-outside", reading.allow_outside, "A scene may name files outside its folder");
-  add_max_faces(app, reading.limits);
+  add_limits(app, reading);
 }
 
 void add_threads(CLI::App& app, std::size_t& threads, const char* of) {

@@ -28,8 +28,8 @@ void check_not_alone(const Scene& scene, const Detect_command& command) {
 
 Scene load(const Detect_command& command) {
   Scene scene = read_inputs(command.inputs, command.reading);
-  if (command.parts) separate(scene, Separate::parts);
-  if (command.components) separate(scene, Separate::components);
+  if (command.parts) separate(scene, Separate::parts, command.reading.max_objects);
+  if (command.components) separate(scene, Separate::components, command.reading.max_objects);
   if (!is_scene_file(command.inputs)) check_not_alone(scene, command);
   return scene;
 }

@@ -135,6 +135,13 @@ std::vector<std::filesystem::path*> inputs_of(Commands& commands) {
   return inputs;
 }
 
+/// How the command that the command line asks for reads.
+const Scene_options& reading_of(const std::string& name, const Commands& commands) {
+  if (name == "partition") return commands.partition.reading;
+  if (name == "info") return commands.info.reading;
+  return name == "convert" ? commands.convert.reading : commands.detect.reading;
+}
+
 int run_commands(int argc, char** argv);
 
 int run_detect(const CLI::App& app, Detect_command& command, const std::vector<std::string>& words) {
@@ -186,9 +193,11 @@ int run_commands(int argc, char** argv) {
   Commands commands;
   add_commands(program, commands);
   if (const auto done = parse(program, argc, argv)) return *done;
+  const CLI::App& asked = *program.get_subcommands().front();
   std::optional<Standard_input> standard_input;
-  replace_standard_input(inputs_of(commands), commands.format, standard_input);
-  return run_command(*program.get_subcommands().front(), commands, argc, argv);
+  replace_standard_input(inputs_of(commands), commands.format, reading_of(asked.get_name(), commands).limits.max_bytes,
+                         standard_input);
+  return run_command(asked, commands, argc, argv);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ void copy_standard_input(Atomic_file& file, std::uintmax_t most_bytes) {
       throw Bad_mesh(fmt::format("the standard input cannot be read: {}", std::generic_category().message(errno)));
     copied += static_cast<std::size_t>(count);
     if (copied > most_bytes)
-      throw Bad_mesh(fmt::format("the standard input is longer than {} bytes, the limit of a mesh file", most_bytes));
+      throw Bad_mesh(fmt::format("the standard input has more than {} bytes, which are allowed at most", most_bytes));
     file.write({bytes.data(), static_cast<std::size_t>(count)});
   }
 }
@@ -104,13 +104,13 @@ std::string shown_name(const std::filesystem::path& file) {
 }
 
 void replace_standard_input(std::vector<std::filesystem::path*> inputs, const std::string& format,
-                            std::optional<Standard_input>& kept) {
+                            std::uintmax_t max_bytes, std::optional<Standard_input>& kept) {
   std::erase_if(inputs, [](const auto* input) { return *input != "-"; });
   if (inputs.empty() && format.empty()) return;
   if (inputs.empty()) throw Bad_argument("--format is for a mesh on the standard input: give - as its name");
   if (inputs.size() > 1) throw Bad_argument("the standard input (-) can be only one of the inputs");
   if (format.empty()) throw Bad_argument("a mesh on the standard input (-) needs its format, such as --format obj");
-  kept.emplace(format);
+  kept.emplace(format, max_bytes);
   *inputs.front() = kept->file();
 }
 

@@ -32,11 +32,11 @@ class Standard_input {
  public:
   /// Reads the standard input to its end.
   /// @param format      extension without the dot, such as `obj`
-  /// @param most_bytes  that are read; the limit of mesh files, which tests lower
+  /// @param most_bytes  that are read
   /// @throws Bad_mesh     it cannot be read, or is longer than `most_bytes`
   /// @throws Bad_output   the temporary file cannot be written
   /// @throws Interrupted  the user has asked to stop
-  explicit Standard_input(const std::string& format, std::uintmax_t most_bytes = longest_mesh_file);
+  Standard_input(const std::string& format, std::uintmax_t most_bytes);
 
   const std::filesystem::path& file() const { return file_; }
 
@@ -53,10 +53,11 @@ std::string naming_standard_input(std::string message);
 std::string shown_name(const std::filesystem::path& file);
 
 /// Replaces an input that is `-` by the standard input.
-/// @param format  of the standard input; empty: not given
-/// @param kept    receives the standard input, which must live as long as it is read
+/// @param format     of the standard input; empty: not given
+/// @param max_bytes  of it
+/// @param kept       receives the standard input, which must live as long as it is read
 /// @throws Bad_argument  `-` twice or without a format, a format without `-`
 void replace_standard_input(std::vector<std::filesystem::path*> inputs, const std::string& format,
-                            std::optional<Standard_input>& kept);
+                            std::uintmax_t max_bytes, std::optional<Standard_input>& kept);
 
 }  // namespace lodestone

@@ -397,7 +397,28 @@ TEST_F(Detect_files, with_more_faces_than_allowed_are_refused_by_every_command) 
     expect_error(run_program(command), 3, "at most 3 are allowed");
     command.back() = "4";
     expect_success(run_program(command));
+    command.insert(command.end(), {"--max-bytes", "10"});
+    expect_error(run_program(command), 3, "bytes, where at most 10 are allowed");
+    command.back() = "1KB";
+    expect_success(run_program(command));
   }
+}
+
+TEST_F(Detect_files, with_more_objects_or_frames_than_allowed_are_refused) {
+  write("a.off", tetrahedron_off());
+  const auto scene = write("scene.json", R"({"frames": 3, "objects": [{"name": "a", "mesh": "a.off"},
+                                                                       {"name": "b", "mesh": "a.off"}]})");
+  for (const auto& [option, most, part] : {std::tuple{"--max-objects", 2, "/objects"},
+                                           {"--max-scene-faces", 8, "8 faces together, where at most 7"},
+                                           {"--max-frames", 3, "/frames: 3 is not a whole number from 1 to 2"}}) {
+    SCOPED_TRACE(option);
+    expect_success(detect({scene, option, std::to_string(most)}));
+    expect_error(detect({scene, option, std::to_string(most - 1)}), 3, part);
+    expect_success(run_program({"info", scene, option, std::to_string(most)}));
+    expect_error(run_program({"info", scene, option, std::to_string(most - 1)}), 3, part);
+    expect_error(detect({scene, option, "0"}), 2, option);
+  }
+  expect_error(detect({scene, "--max-bytes", "10XB"}), 2, "--max-bytes");
 }
 
 }  // namespace

@@ -184,7 +184,7 @@ TEST_F(Faults, a_standard_error_that_cannot_be_written_keeps_the_exit_code) {
 
 TEST_F(Faults, a_file_that_is_cut_off_after_it_was_read_keeps_its_bytes) {
   const auto file = folder.write("a.bin", std::string(100'000, 'x'));
-  const File_bytes bytes(file);
+  const File_bytes bytes(file, std::filesystem::file_size(file));
   fs::resize_file(file, 10);
   EXPECT_EQ(bytes.view(), std::string(100'000, 'x'));
 }

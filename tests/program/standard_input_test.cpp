@@ -63,6 +63,15 @@ class Replaced_input {
   int before_;
 };
 
+TEST_F(Standard_input_of_the_program, is_refused_beyond_the_limit_that_is_asked_for) {
+  auto limited = info;
+  limited.insert(limited.end(), {"--max-bytes", "20"});
+  const auto file = folder.write("a.obj", square_obj);
+  expect_success(run_program(info, {.standard_input = file}));
+  expect_error(run_program(limited, {.standard_input = file}), 3,
+               "the standard input has more than 20 bytes, which are allowed at most");
+}
+
 TEST_F(Standard_input_of_the_program, is_refused_beyond_the_limit_of_a_mesh_file) {
   const std::string text = tetrahedron_off();
   const auto file = folder.write("a.off", text);

@@ -92,6 +92,29 @@ def test_files_with_more_faces_than_allowed_are_refused(tmp_path, scenes):
         next(lodestone.play(scene, max_faces=11))
 
 
+def test_limits_of_bytes_frames_and_objects_are_options(tmp_path):
+    path = tmp_path / "box.obj"
+    lodestone.write_mesh(path, cube())
+    size = path.stat().st_size
+    assert len(lodestone.read_mesh(path, max_bytes=size).faces) == 12
+    for read in (lodestone.read_mesh, lodestone.read_animation):
+        with pytest.raises(lodestone.BadMesh, match=f"at most {size - 1} are allowed"):
+            read(path, max_bytes=size - 1)
+    for number in (1, 2):
+        lodestone.write_mesh(tmp_path / f"step_{number}.obj", cube())
+    with pytest.raises(lodestone.BadMotion, match="2 files are more than 1 frames"):
+        lodestone.read_animation(tmp_path / "step_#.obj", max_frames=1)
+    scene = tmp_path / "scene.json"
+    scene.write_text('{"frames": 2, "objects": [{"name": "a", "mesh": "box.obj"}, {"name": "b", "mesh": "box.obj"}]}')
+    fitting = {"max_bytes": size, "max_frames": 2, "max_objects": 2, "max_scene_faces": 24}
+    assert len(lodestone.read_scene(scene, **fitting).objects) == 2
+    assert sum(1 for _ in lodestone.play(scene, **fitting)) == 2
+    for name, most in fitting.items():
+        for read in (lodestone.read_scene, lambda *given, **options: next(lodestone.play(*given, **options))):
+            with pytest.raises((lodestone.BadScene, lodestone.BadMesh)):
+                read(scene, **{**fitting, name: most - 1})
+
+
 @pytest.mark.parametrize("extension", ["pc2", "mdd", "glb"])
 def test_an_animation_goes_to_a_file_and_back(tmp_path, extension):
     box = cube()

@@ -12,7 +12,7 @@
 
 namespace lodestone {
 
-File_bytes::File_bytes(const std::filesystem::path& file) : name_(file.string()) {
+File_bytes::File_bytes(const std::filesystem::path& file, std::uintmax_t max_bytes) : name_(file.string()) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!exists(status)) throw Bad_mesh(fmt::format("{}: there is no such file", name_));
@@ -22,7 +22,8 @@ File_bytes::File_bytes(const std::filesystem::path& file) : name_(file.string())
   const auto size = std::filesystem::file_size(file, error);
   if (error) throw Bad_mesh(fmt::format("{}: the file cannot be read: {}", name_, error.message()));
   if (size == 0) throw Bad_mesh(fmt::format("{}: the file is empty", name_));
-  if (size > longest_mesh_file) throw Bad_mesh(fmt::format("{}: the file is longer than 16 GiB", name_));
+  if (size > max_bytes)
+    throw Bad_mesh(fmt::format("{}: the file has {} bytes, where at most {} are allowed", name_, size, max_bytes));
   size_ = size;
   bytes_ = std::make_unique_for_overwrite<char[]>(size_);
   read(file);

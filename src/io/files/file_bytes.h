@@ -10,16 +10,14 @@
 
 namespace lodestone {
 
-/// Bytes of a mesh file at most: enough for 50 million faces as text.
-inline constexpr std::uintmax_t longest_mesh_file = std::uintmax_t{16} << 30U;
-
 /// The bytes of a mesh file, as they were when it was read. Not memory-mapped: a mapped file that another process cuts
 /// off ends the program.
 class File_bytes {
  public:
-  /// @throws Bad_mesh  the file does not exist, is a folder, empty, unreadable or longer than
-  ///                   `longest_mesh_file`, or has become shorter meanwhile
-  explicit File_bytes(const std::filesystem::path& file);
+  /// @param max_bytes  of the file
+  /// @throws Bad_mesh  the file does not exist, is a folder, empty, unreadable or longer than `max_bytes`, or has
+  ///                   become shorter meanwhile
+  File_bytes(const std::filesystem::path& file, std::uintmax_t max_bytes);
 
   /// The file's name as the user gave it.
   const std::string& name() const { return name_; }

@@ -194,7 +194,7 @@ bool is_game_model(const std::filesystem::path& file) {
 }
 
 std::shared_ptr<const Game_model> read_game_model(const std::filesystem::path& file, const Mesh_file_options& options) {
-  const File_bytes bytes(file);
+  const File_bytes bytes(file, options.max_bytes);
   return std::make_shared<const Game_model>(Model_reader(bytes, options).read());
 }
 

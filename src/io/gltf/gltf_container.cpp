@@ -129,8 +129,8 @@ Bytes from_uri(const Json_value& uri, std::size_t length, const fs::path& folder
 
 }  // namespace
 
-Gltf_document read_gltf_document(const fs::path& file) {
-  const File_bytes bytes(file);
+Gltf_document read_gltf_document(const fs::path& file, std::uintmax_t max_bytes) {
+  const File_bytes bytes(file, max_bytes);
   Gltf_document document{.name = bytes.name(), .files = {file}};
   if (bytes.view().starts_with(glb_magic))
     read_binary_gltf(bytes, document);
@@ -140,14 +140,16 @@ Gltf_document read_gltf_document(const fs::path& file) {
   return document;
 }
 
-std::vector<Bytes> read_gltf_buffers(Gltf_document& document, const fs::path& folder) {
+std::vector<Bytes> read_gltf_buffers(Gltf_document& document, const fs::path& folder, std::uintmax_t max_bytes) {
   const Json_value root(document.json, document.name);
   std::vector<Bytes> buffers;
   std::uintmax_t together = 0;  // a file can name another as often as it likes
   for (const auto& buffer : root.list("buffers", most_buffers)) {
     const auto length = buffer.at("byteLength").count(1, std::size_t{1} << 40U);
     together += length;
-    if (together > longest_mesh_file) buffer.fail("the buffers up to this one are longer than 16 GiB together");
+    if (together > max_bytes)
+      buffer.fail(fmt::format("the buffers up to this one have {} bytes together, where at most {} are allowed",
+                              together, max_bytes));
     if (const auto uri = buffer.find("uri")) {
       buffers.push_back(from_uri(*uri, length, folder, document));
       continue;

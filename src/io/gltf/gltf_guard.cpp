@@ -470,11 +470,11 @@ std::size_t Guard::targets_of(std::size_t node) const {
 
 }  // namespace
 
-Guarded_gltf guard_gltf(const std::filesystem::path& file) {
-  auto document = read_gltf_document(file);
+Guarded_gltf guard_gltf(const std::filesystem::path& file, std::uintmax_t max_bytes) {
+  auto document = read_gltf_document(file, max_bytes);
   const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
   check_asset(Json_value(document.json, document.name));  // before buffers, which extensions can leave out
-  auto buffers = read_gltf_buffers(document, folder);
+  auto buffers = read_gltf_buffers(document, folder, max_bytes);
   auto plain = Guard(document, buffers).plain();
   return {.plain = std::move(plain),
           .buffers = std::move(buffers),

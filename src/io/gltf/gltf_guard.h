@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -22,7 +23,8 @@ struct Guarded_gltf {
 
 /// Checks every size, index and reference: sizes against the file's contents, indices against counts, types of
 /// accessors against their use, nodes for cycles.
+/// @param max_bytes  of the file, and of its buffers together
 /// @throws Bad_mesh, Bad_scene
-Guarded_gltf guard_gltf(const std::filesystem::path& file);
+Guarded_gltf guard_gltf(const std::filesystem::path& file, std::uintmax_t max_bytes);
 
 }  // namespace lodestone

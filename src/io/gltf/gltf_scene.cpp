@@ -376,7 +376,7 @@ void read_animations(const tinygltf::Model& model, Gltf_scene& scene) {
 
 std::shared_ptr<const Gltf_scene> read_gltf_scene(const std::filesystem::path& file, const Mesh_file_options& options) {
   try {
-    auto guarded = guard_gltf(file);
+    auto guarded = guard_gltf(file, options.max_bytes);
     const auto scene = std::make_shared<Gltf_scene>(Gltf_scene{.name = file.string()});
     const auto model = read_model(guarded, scene->name);
     check_gltf_size(model, scene->name, options);

@@ -8,6 +8,7 @@
 #include "io/files/small_text.h"
 #include "io/files/text_scanner.h"
 #include "lodestone/io/files/atomic_file.h"
+#include "lodestone/io/formats/mesh_file_options.h"
 #include "lodestone/mesh/errors.h"
 
 namespace lodestone {
@@ -38,7 +39,7 @@ void check_every_region_has_a_vertex(const std::filesystem::path& file, std::spa
 }  // namespace
 
 std::vector<Region_index> read_labels(const std::filesystem::path& file, std::size_t vertices) {
-  const File_bytes bytes(file);
+  const File_bytes bytes(file, Mesh_file_options().max_bytes);
   Text_scanner text(bytes, '#');
   std::vector<Region_index> labels;
   labels.reserve(vertices);

@@ -120,7 +120,7 @@ Polygon_soup read_polygon_soup(const std::filesystem::path& file, const Mesh_fil
     return model;
   }
   const auto& format = format_of(file);
-  auto guarded = format.guard(File_bytes(file), options.max_faces);
+  auto guarded = format.guard(File_bytes(file, options.max_bytes), options.max_faces);
   if (guarded.vertices > most_vertices || guarded.faces > most_triangles)
     throw Bad_mesh(fmt::format("{}: {} vertices and {} faces are too many for 32-bit numbers", file.string(),
                                guarded.vertices, guarded.faces));

@@ -24,8 +24,6 @@
 namespace lodestone {
 namespace {
 
-constexpr std::size_t most_sampled_frames = 1'000'000;
-
 /// Keys farther apart are not frames: the curves between them make the motion.
 constexpr double fewest_keys_per_second = 5;
 
@@ -92,13 +90,14 @@ Uniform_keys uniform_keys(const Gltf_animation& animation) {
   return {.times = std::move(times), .rate = rounded_rate(1 / step)};
 }
 
-std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, double rate, double start) {
+std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, double rate, double start,
+                      std::size_t max_frames) {
   if (is_still(animation)) return 1;
   // The tolerance allows for an end, and a rate, that were rounded down.
   const double frames = std::floor(std::max(animation.seconds - start, 0.0) * rate + 0.01) + 1;
-  if (!(frames <= double{most_sampled_frames}))
+  if (!(frames <= static_cast<double>(max_frames)))
     throw Bad_motion(fmt::format("{}: {} seconds at {} frames per second are more than {} frames", scene.name,
-                                 animation.seconds - start, rate, most_sampled_frames));
+                                 animation.seconds - start, rate, max_frames));
   return static_cast<std::size_t>(frames);
 }
 
@@ -138,8 +137,11 @@ Sampling sampling_of(const Gltf_scene& scene, const Gltf_motion_options& options
   sampling.rate = sampling.keys.empty() ? asked.value_or(usual_rate) : keys.rate;
   sampling.start = sampling.keys.empty() ? (asked ? options.start : 0) : sampling.keys.front();
   sampling.rounding = std::min(rounding_of_keys(animation), 0.1 / sampling.rate);
+  const std::size_t most = options.limits.max_frames;
+  if (sampling.keys.size() > most)
+    throw Bad_motion(fmt::format("{}: {} keys are more than {} frames", scene.name, sampling.keys.size(), most));
   sampling.frames =
-      sampling.keys.empty() ? frames_of(scene, animation, sampling.rate, sampling.start) : sampling.keys.size();
+      sampling.keys.empty() ? frames_of(scene, animation, sampling.rate, sampling.start, most) : sampling.keys.size();
   return sampling;
 }
 
@@ -182,8 +184,8 @@ Motion motion_of(std::shared_ptr<const Gltf_scene> scene, const Gltf_motion_opti
   const auto sampling = std::make_shared<const Sampling>(sampling_of(*scene, options));
   std::function<Motion(double, double)> resampled;
   if (!options.frames_per_second)
-    resampled = [scene, number = sampling->animation](double rate, double start) {
-      return motion_of(scene, {.frames_per_second = rate, .start = start, .animation = number});
+    resampled = [scene, number = sampling->animation, limits = options.limits](double rate, double start) {
+      return motion_of(scene, {.frames_per_second = rate, .start = start, .animation = number, .limits = limits});
     };
   // The points hold one pose, and several threads may ask for different frames.
   struct Shared_points {

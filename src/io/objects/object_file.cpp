@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/io/objects/object_file.h"
 
+#include <cstdint>
+
 #include "io/files/file_bytes.h"
 #include "lodestone/io/files/atomic_file.h"
 #include "lodestone/mesh/errors.h"
@@ -9,9 +11,11 @@ namespace lodestone {
 
 namespace {
 
+constexpr std::uintmax_t longest_file = std::uintmax_t{16} << 30U;
+
 File_bytes open(const std::filesystem::path& file) {
   try {
-    return File_bytes(file);
+    return {file, longest_file};
   } catch (const Bad_mesh& error) {
     throw Bad_saved_object(error.what());
   }

@@ -14,6 +14,7 @@
 #include "io/files/unique_names.h"
 #include "io/scenes/object_of.h"
 #include "io/scenes/scene_fields.h"
+#include "io/scenes/scene_folder.h"
 #include "io/scenes/shared_clock.h"
 #include "lodestone/io/files/numbered_files.h"
 #include "lodestone/io/meshes/mesh_file.h"
@@ -114,8 +115,12 @@ Scene scene_of(std::span<const std::filesystem::path> inputs, const Scene_option
   Scene scene;
   scene.name = "meshes";
   Unique_names names;
+  std::size_t faces = 0;
   for (const auto& input : inputs) {
     auto& object = scene.objects.emplace_back(any_object(input, options));
+    faces += object.mesh.number_of_faces();
+    if (const auto fault = detail::too_many_faces_together(faces, options))
+      throw Bad_scene(fmt::format("{}: {}", input.string(), *fault));
     object.name = names.take(object.name);
   }
   share_clock(scene.objects);

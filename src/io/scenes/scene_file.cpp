@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <initializer_list>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -33,13 +34,12 @@ namespace {
 
 using detail::as_json;
 using detail::Json_value;
-using detail::most_scene_frames;
-using detail::most_scene_objects;
 using detail::object_of;
 using detail::Scene_folder;
 using Placement = std::optional<Kernel::Aff_transformation_3>;
 
 constexpr std::size_t most_ignored = 100'000;
+constexpr std::size_t most_animations = 10'000;
 constexpr std::size_t most_particles = 100'000;
 
 // ---- Meshes ----
@@ -120,7 +120,7 @@ Motion read_gltf(const Json_value& value, std::size_t vertices, Scene_folder& fo
     if (animation->is_string())
       options.animation = animation->text();
     else
-      options.animation = animation->count(0, most_scene_objects);
+      options.animation = animation->count(0, most_animations);
   }
   if (const auto rate = value.find("frames_per_second")) {
     options.frames_per_second = rate->number();
@@ -196,8 +196,11 @@ Scene_object read_object(const Json_value& value, Scene_folder& folder) {
 std::vector<Scene_object> read_objects(const Json_value& value, Scene_folder& folder) {
   std::vector<Scene_object> objects;
   std::set<std::string> names;
-  for (const Json_value& element : value.elements(most_scene_objects)) {
+  std::size_t faces = 0;
+  for (const Json_value& element : value.elements(folder.options().max_objects)) {
     objects.push_back(read_object(element, folder));
+    faces += objects.back().mesh.number_of_faces();
+    if (const auto fault = detail::too_many_faces_together(faces, folder.options())) element.fail(*fault);
     const std::string& name = objects.back().name;
     if (!names.insert(name).second)
       element.at("name").fail(fmt::format("{} is taken by an object above", as_json(name)));
@@ -238,18 +241,18 @@ std::size_t shortest_motion(const std::vector<Scene_object>& objects) {
 }
 
 bool any_moves(const Json_value& objects) {
-  return std::ranges::any_of(objects.elements(most_scene_objects),
+  return std::ranges::any_of(objects.elements(std::numeric_limits<std::size_t>::max()),  // they have been counted
                              [](const Json_value& object) { return object.has("motion"); });
 }
 
-std::size_t read_frames(const Json_value& scene, const std::vector<Scene_object>& objects) {
+std::size_t read_frames(const Json_value& scene, const std::vector<Scene_object>& objects, std::size_t max_frames) {
   const std::size_t held = shortest_motion(objects);
   const auto frames = scene.find("frames");
   if (!frames) {
     if (held == 0 && any_moves(scene.at("objects"))) scene.fail("missing key \"frames\": no motion ends by itself");
     return std::max<std::size_t>(held, 1);
   }
-  const std::size_t asked = frames->count(1, most_scene_frames);
+  const std::size_t asked = frames->count(1, max_frames);
   if (held != 0 && asked > held)
     frames->fail(fmt::format("{} frames are more than the {} of the shortest motion", asked, held));
   return asked;
@@ -271,7 +274,7 @@ Scene read_scene(const std::filesystem::path& file, const Scene_options& options
   scene.objects = read_objects(value.at("objects"), folder);
   share_clock(scene.objects);
   scene.ignored = read_ignored(value, scene.objects);
-  scene.frames = read_frames(value, scene.objects);
+  scene.frames = read_frames(value, scene.objects, options.limits.max_frames);
   return scene;
 }
 

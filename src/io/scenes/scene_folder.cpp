@@ -35,6 +35,12 @@ fs::path Scene_folder::path_of(const std::string& name, const Json_value& value)
   return found_.back();
 }
 
+std::optional<std::string> too_many_faces_together(std::size_t faces, const Scene_options& options) {
+  if (faces <= options.max_scene_faces) return std::nullopt;
+  return fmt::format("the objects up to this one have {} faces together, where at most {} are allowed", faces,
+                     options.max_scene_faces);
+}
+
 fs::path Scene_folder::file(const Json_value& value) { return path_of(value.text(), value); }
 
 std::vector<fs::path> Scene_folder::numbered_files(const Json_value& value) {
@@ -44,8 +50,10 @@ std::vector<fs::path> Scene_folder::numbered_files(const Json_value& value) {
   const auto run = name.find('#');
   if (run == name.npos || name.find('#', name.find_first_not_of('#', run)) != name.npos)
     pattern.fail(fmt::format("{} must have one run of # for the number", as_json(name)));
-  const std::size_t first = value.at("first").count(0, most_scene_frames);
-  const std::size_t last = value.at("last").count(first, most_scene_frames);
+  constexpr std::size_t greatest = 1'000'000;
+  const std::size_t first = value.at("first").count(0, greatest);
+  const std::size_t most = std::max<std::size_t>(limits().max_frames, 1);
+  const std::size_t last = value.at("last").count(first, first + std::min(greatest - first, most - 1));
 
   std::vector<fs::path> files;
   std::error_code ignored;
@@ -70,7 +78,7 @@ std::vector<fs::path> Scene_folder::sequence(const Json_value& value) {
   if (value.is_string()) return files_of_pattern(value);
   if (!value.is_array()) return numbered_files(value);
   std::vector<fs::path> files;
-  for (const Json_value& element : value.elements(most_scene_frames)) files.push_back(file(element));
+  for (const Json_value& element : value.elements(limits().max_frames)) files.push_back(file(element));
   return files;
 }
 

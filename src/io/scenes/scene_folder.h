@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,9 +13,8 @@
 
 namespace lodestone::detail {
 
-inline constexpr std::size_t most_scene_frames = 1'000'000;
-/// The most objects of a scene.
-inline constexpr std::size_t most_scene_objects = 10'000;
+/// What is wrong with a scene whose objects so far have that many faces; nothing if the options allow them.
+std::optional<std::string> too_many_faces_together(std::size_t faces, const Scene_options& options);
 
 /// Finds the files that a scene names, relative to the scene's folder, and remembers them.
 class Scene_folder {
@@ -29,6 +29,7 @@ class Scene_folder {
   /// {"pattern": "walk_####.obj", "first": 1, "last": 40}.
   std::vector<std::filesystem::path> sequence(const Json_value& value);
 
+  const Scene_options& options() const { return options_; }
   /// Limits of the files that have faces.
   const Mesh_file_options& limits() const { return options_.limits; }
 

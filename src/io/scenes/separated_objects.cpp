@@ -27,8 +27,6 @@ namespace lodestone {
 
 namespace {
 
-using detail::most_scene_objects;
-
 /// Each takes some hundred bytes, here and in the detector.
 constexpr std::size_t most_ignored_parts = 1'000'000;
 
@@ -60,18 +58,18 @@ void check_count(std::size_t count, std::size_t most, const char* things, const 
   if (count > most) throw Bad_scene(fmt::format("{}: {} {}; expected at most {}{}", of, count, things, most, hint));
 }
 
-Separation by_component(const Scene_object& object, std::span<const Corners> faces) {
+Separation by_component(const Scene_object& object, std::span<const Corners> faces, std::size_t max_objects) {
   Separation by{.label = component_of_faces(static_cast<std::uint32_t>(object.file_vertices), faces), .names = {}};
   const std::size_t count = by.label.empty() ? 0 : *std::ranges::max_element(by.label) + std::size_t{1};
   check_count(
-      count, most_scene_objects, "connected components", object.name,
+      count, max_objects, "connected components", object.name,
       ". Vertices that coincide connect no faces before they are welded, as by lodestone convert --weld 0, if no "
       "frame moves them apart");
   for (std::size_t number = 1; number <= count; ++number) by.names.push_back(fmt::format("{}_{}", object.name, number));
   return by;
 }
 
-Separation by_part(const Scene_object& object) {
+Separation by_part(const Scene_object& object, std::size_t max_objects) {
   Separation by;
   std::map<std::string, std::uint32_t> labels;
   for (const auto face : object.file_face) {
@@ -81,7 +79,7 @@ Separation by_part(const Scene_object& object) {
     if (is_new) by.names.push_back(name.empty() ? object.name : printable(name));
     by.label.push_back(label->second);
   }
-  check_count(by.names.size(), most_scene_objects, "parts", object.name);
+  check_count(by.names.size(), max_objects, "parts", object.name);
   return by;
 }
 
@@ -202,16 +200,16 @@ void give_names(std::span<std::vector<Scene_object>> separated, std::span<const 
 
 }  // namespace
 
-std::vector<Scene_object> separated_objects(const Scene_object& object, Separate what) {
+std::vector<Scene_object> separated_objects(const Scene_object& object, Separate what, std::size_t max_objects) {
   const auto faces = detail::file_corners(object);
-  const auto by = what == Separate::parts ? by_part(object) : by_component(object, faces);
+  const auto by = what == Separate::parts ? by_part(object, max_objects) : by_component(object, faces, max_objects);
   const auto pose = std::make_shared<Whole_pose>(object.motion.pose, object.file_vertices);
   std::vector<Scene_object> objects;
   for (auto& some : separated_faces(object, faces, by)) objects.push_back(object_of(std::move(some), object, pose));
   return objects;
 }
 
-void separate(Scene& scene, Separate what) {
+void separate(Scene& scene, Separate what, std::size_t max_objects) {
   std::vector<std::vector<Scene_object>> separated;
   std::vector<std::string> wholes;
   std::vector<std::size_t> parts;
@@ -219,13 +217,13 @@ void separate(Scene& scene, Separate what) {
   for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
     auto& objects = separated.emplace_back();
     wholes.push_back(scene.objects[o].name);
-    if (!scene.ignores({o, o})) objects = separated_objects(scene.objects[o], what);
+    if (!scene.ignores({o, o})) objects = separated_objects(scene.objects[o], what, max_objects);
     if (objects.size() <= 1) {
       objects.clear();
       objects.push_back(std::move(scene.objects[o]));
     }
     parts.push_back(objects.size());
-    check_count(count += objects.size(), most_scene_objects, "objects", scene.name);
+    check_count(count += objects.size(), max_objects, "objects", scene.name);
   }
   give_names(separated, wholes, what);
   scene.ignored = pairs_of_parts(scene.ignored, parts);

@@ -74,8 +74,9 @@ Motion read_game_motion(const std::filesystem::path& file, std::size_t vertices,
 /// Motion from one mesh file per frame, all with the same faces. The first file is read at once, for its faces; `pose`
 /// reads the file of each frame on demand. Any format of `read_mesh`; positions come in file order.
 /// @param vertices  number of vertices each file must have
-/// @param limits    of each file
-/// @throws Bad_motion  no file, a file that does not exist, a broken first file; from `pose`: a broken file, a wrong
+/// @param limits    of each file, and of the number of files
+/// @throws Bad_motion  no file, too many files, a file that does not exist, a broken first file; from `pose`: a broken
+/// file, a wrong
 ///                     number of vertices, faces that differ from those of the first file
 Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices,
                           const Mesh_file_options& limits = {});
@@ -88,7 +89,7 @@ struct Gltf_motion_options {
   double start = 0;  ///< time of the first frame in seconds; of no meaning without `frames_per_second`
   /// Which animation of the file: its index or its name.
   std::variant<std::size_t, std::string> animation = std::size_t{0};
-  Mesh_file_options limits = {};  ///< of the file's meshes
+  Mesh_file_options limits = {};  ///< of the file, its meshes and its frames
 };
 
 /// Motion from an animation of a glTF 2.0 file (.gltf, .glb): nodes, skins and morph targets. Frame t is sampled at
@@ -96,7 +97,7 @@ struct Gltf_motion_options {
 /// file is kept in memory, and `pose` computes frames on demand. Vertices have the indices that `read_mesh` gives those
 /// of the file.
 /// @param vertices  number of vertices the file must have
-/// @throws Bad_motion    a broken file, a wrong number of vertices, no such animation, more than a million frames
+/// @throws Bad_motion    a broken file, a wrong number of vertices, no such animation, more frames than `limits` allow
 /// @throws Bad_argument  the frame rate is not positive and finite
 Motion read_gltf_motion(const std::filesystem::path& file, std::size_t vertices,
                         const Gltf_motion_options& options = {});

@@ -54,8 +54,10 @@ struct Scene {
 
 /// Options of `read_scene`.
 struct Scene_options {
-  bool allow_outside = false;     ///< whether the scene may name files outside its folder
-  Mesh_file_options limits = {};  ///< of every file with faces that it names
+  bool allow_outside = false;                 ///< whether the scene may name files outside its folder
+  Mesh_file_options limits = {};              ///< of every file with faces that it names; of the frames of the scene
+  std::size_t max_objects = 10'000;           ///< scenes of more objects are refused
+  std::size_t max_scene_faces = 500'000'000;  ///< so are scenes whose objects have more faces together
 };
 
 /// Reads a scene: JSON as described by docs/scene.schema.json.
@@ -63,7 +65,8 @@ struct Scene_options {
 /// Meshes are read or made at once; `pose` reads frames of point caches and mesh sequences on demand. Paths are
 /// relative to the scene's folder; a path that leaves it is refused unless `allow_outside`.
 ///
-/// @throws Bad_scene  a violation of the schema, with a JSON pointer, such as
+/// @throws Bad_scene  more objects, faces or frames than the options allow; a violation of the schema, with a JSON
+/// pointer, such as
 ///                    `scene.json: /objects/1/motion: unknown key "pc" (expected one of pc2, mdd, gltf, keyframes,
 ///                    sequence, deform)`; a syntax error, with line and column
 /// @throws Bad_mesh, Bad_motion  a file that the scene names is missing or broken

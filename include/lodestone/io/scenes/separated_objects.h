@@ -19,13 +19,14 @@ enum class Separate {
 /// belongs to none that of the object. Each has its own file vertices, in the order of those of the whole, and the
 /// faces keep their numbers in the file. Where the objects ask for one frame one after the other, the whole is posed
 /// once.
-/// @throws Bad_scene  more than 10 000, the most objects of a scene
-std::vector<Scene_object> separated_objects(const Scene_object& object, Separate what);
+/// @throws Bad_scene  more than `max_objects`
+std::vector<Scene_object> separated_objects(const Scene_object& object, Separate what,
+                                            std::size_t max_objects = Scene_options().max_objects);
 
 /// Puts these in the place of each object that has several, unless it is not to meet itself. They are in the groups of
 /// the whole, and its ignored pairs hold for them. Names differ: where `NAME_1` is taken, components of NAME are called
 /// `NAME_2_1`, `NAME_2_2` and so on, and a part gets a number.
-/// @throws Bad_scene  more than 10 000 objects, or a million ignored pairs
-void separate(Scene& scene, Separate what);
+/// @throws Bad_scene  more than `max_objects` in the scene, or a million ignored pairs
+void separate(Scene& scene, Separate what, std::size_t max_objects = Scene_options().max_objects);
 
 }  // namespace lodestone
