@@ -12,6 +12,7 @@
 #include "lodestone/mesh/faces_in_box.h"
 #include "lodestone/mesh/joined_vertices.h"
 #include "lodestone/mesh/mesh_numbering.h"
+#include "lodestone/mesh/own_points.h"
 #include "lodestone/mesh/stopwatch.h"
 
 /// Frames of the mode `exact` for meshes that are asked about once: nothing is built that another frame would need.

@@ -14,15 +14,12 @@
 #include "lodestone/mesh/computed_points.h"
 #include "lodestone/mesh/connectivity.h"
 #include "lodestone/mesh/coordinate_reader.h"
+#include "lodestone/mesh/own_points.h"
 #include "lodestone/mesh/region_maps.h"
 #include "lodestone/mesh/workers.h"
 #include "lodestone/partition/partition.h"
 
 namespace lodestone {
-
-/// The vertex point map that a mesh has of its own.
-template <class Mesh>
-using Own_points = typename boost::property_map<Mesh, CGAL::vertex_point_t>::const_type;
 
 /// What a detector asks of one of its meshes, whatever its type. The modes know no mesh types: they see each mesh
 /// through this interface, once per frame, and by index.
