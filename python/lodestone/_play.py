@@ -25,7 +25,8 @@ def play(
     scene: a Scene, or a path or paths as of `read_scene`. frames: which of its frames, such as range(10, 20), where -1
     is the last; None: all.
     components, parts, allow_outside and the limits max_faces, max_bytes, max_frames, max_objects and max_scene_faces
-    are those of `read_scene`, and of no meaning for a Scene. Other options are those of Detector; `particles` counts for every object, whatever the scene says of it.
+    are those of `read_scene`, and of no meaning for a Scene. Other options are those of Detector; `particles` counts
+    for every object, whatever the scene says of it.
     `frame.detector` is the detector; its objects are those of the scene, in order.
     """
     if isinstance(scene, Scene):

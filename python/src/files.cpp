@@ -192,7 +192,8 @@ void add_files(py::module_& module) {
              py::arg("max_frames") = limits.max_frames,
              "Reads an animation: a pattern of mesh files such as 'cloth_*.obj', a point cache (.pc2, .mdd) with its `mesh`, "
              "glTF,\nMD2, MD3, or a mesh. animation: index or name in a glTF file. frames_per_second: of a glTF animation.\n"
-             "max_faces, max_bytes, max_frames: a file with more is refused. Raises BadMesh, BadMotion.");
+             "max_faces, max_bytes, max_frames: a file with more is refused; the bytes of a point cache do not count. Raises BadMesh,\n"
+             "BadMotion.");
   module.def("write_mesh", write_mesh_file, py::arg("path"), py::arg("mesh"), py::arg("faces") = py::none(),
              "Writes a mesh: .obj, .off, .ply, .stl, .gltf or .glb. The file appears whole or not at all.\n"
              "mesh: vertices, an array (V, 3), with `faces`; or an object that has both.");

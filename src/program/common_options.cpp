@@ -16,6 +16,26 @@ namespace {
 /// Limits the weight so that squared weighted vectors cannot overflow.
 constexpr double largest_normal_weight = 1e6;
 
+/// A number of bytes, also with a unit: 200MB are 200 * 2^20.
+CLI::Validator size_in_bytes() {
+  return {[](std::string& text) -> std::string {
+            const std::string fault = fmt::format("expected a size of 1 byte or more, such as 200MB, found '{}'", text);
+            const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+            const std::string unit = lower_case(text.substr(digits));
+            const std::vector<std::string> units{"b", "kb", "mb", "gb", "tb"};
+            const auto found = std::ranges::find(units, unit.empty() ? "b" : unit);
+            constexpr std::size_t most_digits = 15;
+            if (digits == 0 || digits > most_digits || found == units.end()) return fault;
+            const std::uintmax_t number = std::stoull(text.substr(0, digits));
+            const auto shift = 10 * (found - units.begin());
+            constexpr auto largest = std::numeric_limits<std::uintmax_t>::max();
+            if (number == 0 || number > largest >> shift) return fault;
+            text = std::to_string(number << shift);
+            return {};
+          },
+          ""};
+}
+
 void add_limit(CLI::App& app, const char* name, std::size_t& limit, const char* what) {
   app.add_option(name, limit, what)
       ->check(CLI::Range(std::size_t{1}, limit))
@@ -27,14 +47,12 @@ void add_limit(CLI::App& app, const char* name, std::size_t& limit, const char* 
 void add_limits(CLI::App& app, Scene_options& reading) {
   add_limit(app, "--max-faces", reading.limits.max_faces,
             "Refuse files with more faces, before memory is taken for them");
-  add_limit(app, "--max-scene-faces", reading.max_scene_faces, "Refuse objects with more faces together");
+  add_limit(app, "--max-scene-faces", reading.max_scene_faces, "Refuse scenes with more faces together");
   add_limit(app, "--max-objects", reading.max_objects, "Refuse scenes of more objects");
-  add_limit(app, "--max-frames", reading.limits.max_frames,
-            "Refuse scenes, glTF animations and numbered files of more frames");
+  add_limit(app, "--max-frames", reading.limits.max_frames, "Refuse scenes and animations of more frames");
   app.add_option("--max-bytes", reading.limits.max_bytes,
                  "Refuse longer mesh files, and buffers of a glTF file that are longer together; units such as 200MB")
-      ->transform(CLI::AsSizeValue(false).description(""))
-      ->check(CLI::Range(std::uintmax_t{1}, std::numeric_limits<std::uintmax_t>::max()).description(""))
+      ->transform(size_in_bytes())
       ->type_name("SIZE")
       ->default_str("16GB")
       ->group("Limits of the input");

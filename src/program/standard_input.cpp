@@ -47,7 +47,7 @@ void copy_standard_input(Atomic_file& file, std::uintmax_t most_bytes) {
       throw Bad_mesh(fmt::format("the standard input cannot be read: {}", std::generic_category().message(errno)));
     copied += static_cast<std::size_t>(count);
     if (copied > most_bytes)
-      throw Bad_mesh(fmt::format("the standard input has more than {} bytes, which are allowed at most", most_bytes));
+      throw Bad_mesh(fmt::format("the standard input has more than the {} bytes that are allowed", most_bytes));
     file.write({bytes.data(), static_cast<std::size_t>(count)});
   }
 }

@@ -57,10 +57,12 @@ class Share {
   double divisor_, rounded_;
 };
 
-/// CGAL's own conversion may be off in the last digits.
+/// CGAL's own conversion may be off in the last digits. Without GMP it is NaN where numerator and denominator are too
+/// large for doubles; the interval around the number is not.
 double nearest_double(const CGAL::Exact_rational& number) {
   using Number = CGAL::Exact_rational;
-  double best = CGAL::to_double(number);
+  const auto [low, high] = CGAL::to_interval(number);
+  double best = std::isfinite(low) ? low : high;
   const auto is_nearer = [&](double other) {
     return std::isfinite(other) && CGAL::abs(Number(number - Number(other))) < CGAL::abs(Number(number - Number(best)));
   };

@@ -65,6 +65,8 @@ try {
     console.log(`${names.join(', ')}: ${answer}`);
     if (expected > 0) assert.match(answer, new RegExp(`intersects?( itself)?: ${expected} face pairs?,`));
     else assert.match(answer, /(do|does) not intersect/);
+    // The page below can be read, whatever the coordinates.
+    await page.frameLocator('#viewer').locator('html[data-ready=yes]').waitFor({ timeout: 30_000 });
   }
   const both = pairs_by_program(['large.stl', 'teapot.obj']);
   assert.match(await ask(['large.stl'], ['teapot.obj']), new RegExp(`^They intersect: ${both} face pairs,`));

@@ -418,7 +418,8 @@ TEST_F(Detect_files, with_more_objects_or_frames_than_allowed_are_refused) {
     expect_error(run_program({"info", scene, option, std::to_string(most - 1)}), 3, part);
     expect_error(detect({scene, option, "0"}), 2, option);
   }
-  expect_error(detect({scene, "--max-bytes", "10XB"}), 2, "--max-bytes");
+  for (const std::string size : {"10XB", "0", "-1", "1.5GB", "MB", "18446744073709551616", "99999999TB"})
+    expect_error(detect({scene, "--max-bytes", size}), 2, "a size of 1 byte or more, such as 200MB, found '" + size);
 }
 
 }  // namespace

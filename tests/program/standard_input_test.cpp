@@ -69,7 +69,7 @@ TEST_F(Standard_input_of_the_program, is_refused_beyond_the_limit_that_is_asked_
   const auto file = folder.write("a.obj", square_obj);
   expect_success(run_program(info, {.standard_input = file}));
   expect_error(run_program(limited, {.standard_input = file}), 3,
-               "the standard input has more than 20 bytes, which are allowed at most");
+               "the standard input has more than the 20 bytes that are allowed");
 }
 
 TEST_F(Standard_input_of_the_program, is_refused_beyond_the_limit_of_a_mesh_file) {

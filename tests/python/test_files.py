@@ -102,7 +102,7 @@ def test_limits_of_bytes_frames_and_objects_are_options(tmp_path):
             read(path, max_bytes=size - 1)
     for number in (1, 2):
         lodestone.write_mesh(tmp_path / f"step_{number}.obj", cube())
-    with pytest.raises(lodestone.BadMotion, match="2 files are more than 1 frames"):
+    with pytest.raises(lodestone.BadMotion, match="2 frames, where at most 1 are allowed"):
         lodestone.read_animation(tmp_path / "step_#.obj", max_frames=1)
     scene = tmp_path / "scene.json"
     scene.write_text('{"frames": 2, "objects": [{"name": "a", "mesh": "box.obj"}, {"name": "b", "mesh": "box.obj"}]}')

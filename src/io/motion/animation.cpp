@@ -10,6 +10,7 @@
 #include "io/files/small_text.h"
 #include "io/meshes/read_mesh_soup.h"
 #include "io/meshes/triangulated_soup.h"
+#include "io/motion/check_frames.h"
 #include "io/motion/game_motion.h"
 #include "io/motion/gltf_motion.h"
 #include "io/motion/keep_joined.h"
@@ -130,7 +131,9 @@ std::optional<Mesh_and_cache> mesh_and_cache(const fs::path& input) {
   return Mesh_and_cache{.mesh = text.substr(0, plus), .cache = text.substr(plus + 1)};
 }
 
-Animation read_animation(const fs::path& input, const Animation_options& options) {
+namespace {
+
+Animation read_whatever(const fs::path& input, const Animation_options& options) {
   if (const auto parts = mesh_and_cache(input)) {
     if (options.mesh.empty()) return cache(parts->cache, parts->mesh, options.limits);
     throw Bad_argument(fmt::format("{}: names its mesh already, {}: no other is needed beside it", input.string(),
@@ -143,6 +146,14 @@ Animation read_animation(const fs::path& input, const Animation_options& options
   if (is_pattern(input) && !fs::is_regular_file(input, ignored)) return sequence(input, options.limits);
   if (is_game_model(input)) return game_model(input, options.limits);
   return is_gltf(input) ? gltf(input, options) : still(input, options.limits);
+}
+
+}  // namespace
+
+Animation read_animation(const fs::path& input, const Animation_options& options) {
+  Animation animation = read_whatever(input, options);
+  check_frames(input.string(), animation.motion.frames, options.limits);
+  return animation;
 }
 
 }  // namespace lodestone

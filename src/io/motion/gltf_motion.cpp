@@ -17,6 +17,7 @@
 #include "io/files/file_bytes.h"
 #include "io/gltf/gltf_points.h"
 #include "io/motion/animation_names.h"
+#include "io/motion/check_frames.h"
 #include "lodestone/bounds/skin_bound.h"
 #include "lodestone/io/motion/computed_motion.h"
 #include "lodestone/mesh/errors.h"
@@ -138,8 +139,7 @@ Sampling sampling_of(const Gltf_scene& scene, const Gltf_motion_options& options
   sampling.start = sampling.keys.empty() ? (asked ? options.start : 0) : sampling.keys.front();
   sampling.rounding = std::min(rounding_of_keys(animation), 0.1 / sampling.rate);
   const std::size_t most = options.limits.max_frames;
-  if (sampling.keys.size() > most)
-    throw Bad_motion(fmt::format("{}: {} keys are more than {} frames", scene.name, sampling.keys.size(), most));
+  check_frames(scene.name, sampling.keys.size(), options.limits);
   sampling.frames =
       sampling.keys.empty() ? frames_of(scene, animation, sampling.rate, sampling.start, most) : sampling.keys.size();
   return sampling;

@@ -11,6 +11,7 @@
 
 #include "io/files/small_text.h"
 #include "io/meshes/read_mesh_soup.h"
+#include "io/motion/check_frames.h"
 #include "lodestone/io/motion/motion.h"
 #include "lodestone/mesh/errors.h"
 
@@ -140,9 +141,7 @@ void check_faces_of_file(const std::filesystem::path& file, const Moved_faces& m
 Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices,
                           const Mesh_file_options& limits) {
   check_files(files);
-  if (files.size() > limits.max_frames)
-    throw Bad_motion(
-        fmt::format("{}: {} files are more than {} frames", files.front().string(), files.size(), limits.max_frames));
+  check_frames(files.front().string(), files.size(), limits);
   auto soup = read_frame(files.front(), limits);
   check_vertices(files.front(), soup.points.size(), vertices);
   const auto first = std::make_shared<const First_frame>(

@@ -114,6 +114,8 @@ std::optional<Scene_object> named_object(const std::filesystem::path& input, con
 Scene scene_of(std::span<const std::filesystem::path> inputs, const Scene_options& options) {
   Scene scene;
   scene.name = "meshes";
+  if (inputs.size() > options.max_objects)
+    throw Bad_scene(fmt::format("{} inputs, where at most {} objects are allowed", inputs.size(), options.max_objects));
   Unique_names names;
   std::size_t faces = 0;
   for (const auto& input : inputs) {

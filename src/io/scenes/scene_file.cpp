@@ -250,6 +250,8 @@ std::size_t read_frames(const Json_value& scene, const std::vector<Scene_object>
   const auto frames = scene.find("frames");
   if (!frames) {
     if (held == 0 && any_moves(scene.at("objects"))) scene.fail("missing key \"frames\": no motion ends by itself");
+    if (held > max_frames)
+      scene.fail(fmt::format("the shortest motion has {} frames, where at most {} are allowed", held, max_frames));
     return std::max<std::size_t>(held, 1);
   }
   const std::size_t asked = frames->count(1, max_frames);

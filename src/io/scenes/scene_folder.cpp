@@ -50,9 +50,9 @@ std::vector<fs::path> Scene_folder::numbered_files(const Json_value& value) {
   const auto run = name.find('#');
   if (run == name.npos || name.find('#', name.find_first_not_of('#', run)) != name.npos)
     pattern.fail(fmt::format("{} must have one run of # for the number", as_json(name)));
-  constexpr std::size_t greatest = 1'000'000;
-  const std::size_t first = value.at("first").count(0, greatest);
   const std::size_t most = std::max<std::size_t>(limits().max_frames, 1);
+  const std::size_t greatest = std::max<std::size_t>(1'000'000, most);
+  const std::size_t first = value.at("first").count(0, greatest);
   const std::size_t last = value.at("last").count(first, first + std::min(greatest - first, most - 1));
 
   std::vector<fs::path> files;

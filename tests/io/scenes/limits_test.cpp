@@ -17,6 +17,7 @@
 #include "support/gltf_samples.h"
 #include "support/mesh_samples.h"
 #include "support/message_of.h"
+#include "support/moving_mesh_files.h"
 #include "support/scene_samples.h"
 #include "support/temporary_folder.h"
 
@@ -75,7 +76,7 @@ TEST_F(Input_limits, are_those_of_the_frames_of_an_animation) {
   const auto file = folder.write("a.glb", sample.glb());
   EXPECT_EQ(read_animation(file, {.limits = {.max_frames = 4}}).motion.frames, 4U);
   EXPECT_EQ(message_of<Bad_motion>([&] { read_animation(file, {.limits = {.max_frames = 3}}); }),
-            file.string() + ": 4 keys are more than 3 frames");
+            file.string() + ": 4 frames, where at most 3 are allowed");
   EXPECT_EQ(read_animation(file, {.frames_per_second = 20, .limits = {.max_frames = 7}}).motion.frames, 7U);
   EXPECT_THROW(read_animation(file, {.frames_per_second = 20, .limits = {.max_frames = 6}}), Bad_motion);
   // A rate that is chosen later has the same limits.
@@ -87,7 +88,7 @@ TEST_F(Input_limits, are_those_of_the_frames_of_an_animation) {
   for (int i = 0; i < 3; ++i) files.push_back(folder.write("s_" + std::to_string(i) + ".off", tetrahedron_off(i)));
   EXPECT_EQ(read_mesh_sequence(files, 4, {.max_frames = 3}).frames, 3U);
   EXPECT_EQ(message_of<Bad_motion>([&] { read_mesh_sequence(files, 4, {.max_frames = 2}); }),
-            files[0].string() + ": 3 files are more than 2 frames");
+            files[0].string() + ": 3 frames, where at most 2 are allowed");
 }
 
 TEST_F(Input_limits, are_those_of_the_frames_of_a_scene) {
@@ -106,6 +107,20 @@ TEST_F(Input_limits, are_those_of_the_frames_of_a_scene) {
   }
 }
 
+TEST_F(Input_limits, are_those_of_the_frames_of_a_point_cache) {
+  write_moving_tetrahedron(folder.path() / "a", 5);
+  const auto cache = folder.path() / "a.pc2";
+  const auto moving = folder.path() / "a.off+a.pc2";
+  const auto scene = folder.write("cached.json", with_object(R"("mesh": "a.off", "motion": {"pc2": "a.pc2"})"));
+  EXPECT_EQ(read_animation(moving, {.limits = {.max_frames = 5}}).motion.frames, 5U);
+  EXPECT_EQ(read_scene(scene, {.limits = {.max_frames = 5}}).frames, 5U);
+  EXPECT_EQ(message_of<Bad_motion>([&] { read_animation(cache, {.limits = {.max_frames = 4}}); }),
+            cache.string() + ": 5 frames, where at most 4 are allowed");
+  EXPECT_THROW(scene_of(std::vector{moving}, {.limits = {.max_frames = 4}}), Bad_motion);
+  EXPECT_EQ(message_of<Bad_scene>([&] { read_scene(scene, {.limits = {.max_frames = 4}}); }),
+            scene.string() + ": /: the shortest motion has 5 frames, where at most 4 are allowed");
+}
+
 TEST_F(Input_limits, are_those_of_the_objects_of_a_scene) {
   const auto file = write_scene(3);
   EXPECT_EQ(read_scene(file, {.max_objects = 3}).objects.size(), 3U);
@@ -120,6 +135,12 @@ TEST_F(Input_limits, are_those_of_the_objects_of_a_scene) {
             "welded, as by lodestone convert --weld 0, if no frame moves them apart");
   separate(scene, Separate::components, 2);
   EXPECT_EQ(scene.objects.size(), 2U);
+
+  EXPECT_EQ(scene_of(std::vector{two, two}, {.max_objects = 2}).objects.size(), 2U);
+  EXPECT_EQ(message_of<Bad_scene>([&] {
+              scene_of(std::vector{two, two}, {.max_objects = 1});
+            }),
+            "2 inputs, where at most 1 objects are allowed");
 }
 
 TEST_F(Input_limits, are_those_of_the_faces_of_all_objects_together) {

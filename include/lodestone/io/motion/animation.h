@@ -35,7 +35,7 @@ struct Animation_options {
   std::filesystem::path mesh = {};  ///< for a point cache: the mesh file that it moves; empty: positions only
   std::optional<double> frames_per_second = {};  ///< of a glTF animation, as in Gltf_motion_options
   std::variant<std::size_t, std::string> animation = std::size_t{0};  ///< in a glTF file: its index or name
-  Mesh_file_options limits = {};                                      ///< of every file that has faces
+  Mesh_file_options limits = {};                                      ///< of every file that has faces, and of frames
 };
 
 /// The two files of `MESH+CACHE`, such as `cloth.obj+cloth.pc2`.

@@ -34,7 +34,7 @@ Scene_object object_of_scene(const std::filesystem::path& scene, const std::stri
 /// A scene of inputs of `read_object` and `named_object`, named after their files, shapes and objects; equal names get
 /// a number. It has as many frames as the longest motion. An object whose motion is shorter keeps its last pose.
 /// @param inputs  at least one
-/// @throws Bad_scene  more faces together than `options` allow; else as read_object and named_object
+/// @throws Bad_scene  more inputs, or faces together, than `options` allow; else as read_object and named_object
 Scene scene_of(std::span<const std::filesystem::path> inputs, const Scene_options& options = {});
 
 /// One scene file (.json), or else `scene_of` the inputs.

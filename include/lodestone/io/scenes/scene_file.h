@@ -65,10 +65,10 @@ struct Scene_options {
 /// Meshes are read or made at once; `pose` reads frames of point caches and mesh sequences on demand. Paths are
 /// relative to the scene's folder; a path that leaves it is refused unless `allow_outside`.
 ///
-/// @throws Bad_scene  more objects, faces or frames than the options allow; a violation of the schema, with a JSON
-/// pointer, such as
+/// @throws Bad_scene  a violation of the schema, with a JSON pointer, such as
 ///                    `scene.json: /objects/1/motion: unknown key "pc" (expected one of pc2, mdd, gltf, keyframes,
-///                    sequence, deform)`; a syntax error, with line and column
+///                    sequence, deform)`; a syntax error, with line and column; more objects, faces or frames than
+///                    the options allow
 /// @throws Bad_mesh, Bad_motion  a file that the scene names is missing or broken
 Scene read_scene(const std::filesystem::path& file, const Scene_options& options = {});
 
