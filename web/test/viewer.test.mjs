@@ -495,6 +495,36 @@ describe('the viewer', () => {
     assert.deepEqual(page.heard.errors, []);
   });
 
+  test('the wheel reaches what is under the pointer, wherever the middle is; from nearby every move is drawn', async () => {
+    const page = await open_kind('small');
+    const far_from_middle = await page.evaluate(() => {
+      const { view } = window.lodestone;
+      for (let y = 120; y < 560; y += 10)
+        for (let x = 100; x < 800; x += 10) {
+          const { distance } = view.look_at(x, y);
+          if (distance < Infinity && Math.abs(distance - view.controls.getDistance()) > 0.25) return [x, y];
+        }
+    });
+    const distance = () => page.evaluate(([x, y]) => window.lodestone.view.look_at(x, y).distance, far_from_middle);
+    assert.ok((await distance()) > 1);
+    await page.mouse.move(...far_from_middle);
+    for (let i = 0; i < 60; ++i) await page.mouse.wheel(0, -400);
+    await page.waitForFunction('lodestone.view.controls.getDistance() < 0.003');
+    assert.ok((await distance()) < 0.01);
+    await settled(page);
+    const draws = () => page.evaluate('lodestone.stats.draws');
+    const before = await draws();
+    await page.mouse.down({ button: 'right' });
+    for (let i = 1; i <= 8; ++i) {
+      await page.mouse.move(far_from_middle[0] + 5 * i, far_from_middle[1]);
+      await page.waitForFunction((count) => window.lodestone.stats.draws >= count, before + i);
+    }
+    await page.mouse.up({ button: 'right' });
+    for (let i = 0; i < 60; ++i) await page.mouse.wheel(0, 800);
+    await page.waitForFunction('lodestone.view.controls.getDistance() > 15');
+    assert.ok((await page.evaluate('lodestone.view.controls.target.length()')) <= 2);
+  });
+
   test('names of any length and script stand beside what is said of them', async () => {
     const page = await open_kind('names');
     const [name, state] = await Promise.all(['.name', '.state'].map((part) => page.locator(`#pairs ${part}`).first().boundingBox()));

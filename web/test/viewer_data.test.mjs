@@ -7,6 +7,7 @@ import { faces_of_objects } from '../viewer/contacts.mjs';
 import { Damaged, decode_labels, decode_particles, decode_positions, decode_topology, Varint_reader } from '../viewer/decode.mjs';
 import { fold, sharp, vertex_normals } from '../viewer/normals.mjs';
 import { outcome_of, runs } from '../viewer/outcome.mjs';
+import { first_along } from '../viewer/pick.mjs';
 import { common_ball, Places } from '../viewer/places.mjs';
 import { Player } from '../viewer/player.mjs';
 import { Sharpness } from '../viewer/sharpness.mjs';
@@ -167,6 +168,23 @@ test('a thin part that samples miss is among the vertices that stick out', () =>
   assert.deepEqual(new Places({ vertices: 0, box: object.box, frames: [new Uint16Array()] }, common_ball([object])).extremes(), []);
 });
 
+test('the first face along a ray is found, from either side, and none beside it or behind', () => {
+  // Two squares across the z-axis, at z = 0 and 1, of two triangles each.
+  const corners = Uint32Array.of(0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7);
+  const square = (z) => [[0, 0, z], [65535, 0, z], [65535, 65535, z], [0, 65535, z]].flat();
+  const object = { vertices: 8, corners, box: [-1, -1, 0, 1, 1, 1], frames: [Uint16Array.from([...square(0), ...square(65535)])] };
+  const places = new Places(object, { centre: [0, 0, 0], radius: 1 });
+  const look = (from, along) => first_along(places, 0, ...[from, along].map(([x, y, z]) => ({ x, y, z })));
+  for (const [x, y] of [[0.5, -0.5], [-0.5, 0.5], [0.9, 0.9]]) {
+    assert.ok(Math.abs(look([x, y, 3], [0, 0, -1]) - 2) < 1e-6);
+    assert.ok(Math.abs(look([x, y, -3], [0, 0, 2]) - 1.5) < 1e-6);
+    assert.ok(Math.abs(look([x, y, 0.5], [0, 0, -1]) - 0.5) < 1e-6);
+  }
+  assert.equal(look([0, 0, 3], [0, 0, 1]), Infinity);
+  assert.equal(look([1.1, 0, 3], [0, 0, -1]), Infinity);
+  assert.equal(look([0, 0, 3], [1, 0, 0]), Infinity);
+});
+
 /** Calls what waits for the next picture, after some milliseconds. */
 async function in_fake_time(act) {
   const saved = { requestAnimationFrame: globalThis.requestAnimationFrame, now: performance.now };
@@ -257,6 +275,11 @@ test('whatever a damaged page holds, its reader is told what is wrong', async ()
     [{ object: { vertices: 1e9 } }, /^labels 0.0: ends early$/],
     [{ object: { triangles: 1e9 } }, /^topology 0: ends early$/],
     [{ object: { vertices: null } }, /^header: object one has no size$/],
+    [{ header: { objects: {} } }, /^header: objects are not a list$/],
+    [{ header: { objects: [null] } }, /^header: objects are not a list$/],
+    [{ object: { partitions: 3 } }, /^header: object one has no list of partitions$/],
+    [{ object: { partitions: [null] } }, /^header: object one has no list of partitions$/],
+    [{ object: { partitions: [{ frame: 0, regions: 1e9, labels: 'labels 0.0' }] } }, /^header: object one has no list of partitions$/],
     [{ object: { box: [0, 0, 0] } }, /^header: object one has no size$/],
     [{ object: { partitions: [{ frame: 0, regions: 1, labels: 'none' }] } }, /^none: no such section$/],
     [{ sections: { stages: [{}, {}] } }, /^stages: frame 0 has no times$/],

@@ -6,6 +6,7 @@ const magic = 'LDSTPAGE';
 const version = 1;
 const preamble = 16;
 const most_frames = 1e7;
+const most_regions = 2 ** 24;
 
 /** An error of a browser that lacks what the page needs, with a message for its reader. */
 export class Too_old extends Error {}
@@ -55,6 +56,7 @@ export async function read_page(text) {
     return of_each_frame(name, parse_or_complain(name, () => parse(new TextDecoder().decode(content))), header.frames);
   };
   const objects = [];
+  if (!Array.isArray(header.objects ?? []) || !(header.objects ?? []).every(is_object)) throw new Damaged('header: objects are not a list');
   for (const object of header.objects ?? []) objects.push(await read_object(object, header.frames, section));
   return {
     header,
@@ -71,7 +73,10 @@ async function read_object(object, frames, section) {
   if (!is_index(vertices, Infinity) || !is_index(triangles, Infinity) || box?.length !== 6)
     throw new Damaged(`header: object ${object.name} has no size`);
   const partitions = [];
-  for (const { frame, regions, labels } of object.partitions ?? [])
+  const listed = object.partitions ?? [];
+  if (!Array.isArray(listed) || !listed.every((partition) => is_object(partition) && is_index(partition.regions, most_regions)))
+    throw new Damaged(`header: object ${object.name} has no list of partitions`);
+  for (const { frame, regions, labels } of listed)
     partitions.push({ frame, regions, labels: decode_labels(await section(labels), vertices, regions, labels) });
   return {
     ...object,

@@ -4,6 +4,7 @@ import { Box3, Color, MOUSE, PerspectiveCamera, Scene, Vector3, WebGLRenderer } 
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { stage_background } from './colours.mjs';
 import { Marks } from './marks.mjs';
+import { first_along } from './pick.mjs';
 import { common_ball, Places } from './places.mjs';
 import { Sharpness } from './sharpness.mjs';
 import { Surface } from './surface.mjs';
@@ -47,12 +48,9 @@ export class View {
     this.camera = new PerspectiveCamera(field_of_view, 1, nearest_visible, 60);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
-    Object.assign(this.controls, { enableDamping: false, minDistance: 0.002, maxDistance: 20, zoomToCursor: true });
+    Object.assign(this.controls, { enableDamping: false, minDistance: 0.002, maxDistance: 20, maxTargetRadius: 2 });
     this.controls.mouseButtons.MIDDLE = MOUSE.PAN;
-    this.controls.addEventListener('change', () => {
-      this.moved ||= this.held;  // A click alone does not move it.
-      this.#draw_soon();
-    });
+    this.controls.addEventListener('change', () => this.#draw_soon());
     this.frame = 0;
     this.stale = true;
     this.moved = this.held = false;
@@ -61,6 +59,12 @@ export class View {
       this.held = false;
       this.#draw_soon();
     });
+    canvas.addEventListener('pointermove', ({ movementX, movementY }) => {
+      if (!this.held || (movementX === 0 && movementY === 0)) return;  // A click alone does not move it.
+      this.moved = true;
+      this.#draw_soon();  // The controls do not tell of small changes, which from nearby are large.
+    });
+    canvas.addEventListener('wheel', (event) => this.#aim(event), { capture: true });  // before the controls
     // three.js makes everything anew, but does not draw by itself.
     canvas.addEventListener('webglcontextrestored', () => this.refresh());
     new ResizeObserver(() => this.#fit()).observe(canvas.parentElement);
@@ -115,6 +119,33 @@ export class View {
     this.moved = true;
     this.controls.update();
     this.#draw_soon();
+  }
+
+  /**
+   * @param {number} x @param {number} y  of the window
+   * @returns {{distance: number, along: Vector3}} the direction of what is there, and how far away it is; else infinite
+   */
+  look_at(x, y) {
+    const { left, top, width, height } = this.canvas.getBoundingClientRect();
+    const { position } = this.camera;
+    const along = new Vector3((2 * (x - left)) / width - 1, 1 - (2 * (y - top)) / height, 0.5).unproject(this.camera).sub(position).normalize();
+    const visible = this.surfaces.filter(({ group }) => group.visible);
+    const distances = visible.map(({ places }) => first_along(places, this.frame, position, along));
+    return { distance: distances.reduce((a, b) => Math.min(a, b), Infinity), along };
+  }
+
+  /** The wheel comes nearer to what is under the pointer, which may be in front of or behind the middle. */
+  #aim({ deltaY, clientX, clientY, timeStamp }) {
+    this.moved = true;
+    this.controls.zoomToCursor = deltaY < 0;
+    const pause_ms = 100;
+    const since = this.aimed;
+    this.aimed = timeStamp;
+    if (deltaY >= 0 || timeStamp - since < pause_ms) return;
+    const { distance, along } = this.look_at(clientX, clientY);
+    if (distance === Infinity) return;
+    const forward = this.camera.getWorldDirection(new Vector3());
+    this.controls.target.copy(this.camera.position).addScaledVector(forward, distance * forward.dot(along));
   }
 
   /** Whether drawing has finished. */

@@ -18,7 +18,7 @@ export class Timeline {
     this.player = player;
     this.window = [0, player.frames];
     this.pointers = new Map();
-    const nothing = { kind: 'lane', name: 'frames', about: 'nothing is marked', is: () => false };
+    const nothing = { kind: 'lane', name: 'frames', is: () => false };  // The page has no results.
     const kinds = frame_kinds(page);
     const lanes = (kinds.length > 0 ? kinds : [nothing]).map((lane) => ({ ...lane, runs: runs(player.frames, lane.is) }));
     this.heads = [0, 1].map(() => element('div', { className: 'head' }));
@@ -32,7 +32,7 @@ export class Timeline {
       element('div', { className: 'overview' }, overview, this.bracket, this.heads[0]),
       element('div', { className: 'detail' }, this.detail, this.ticks, this.heads[1]),
     ];
-    const all = { name: 'all frames', about: 'something was found or missed' };
+    const all = { name: 'all frames', about: kinds.length > 0 ? 'something was found or missed' : undefined };
     root.append(lane_names([all], 'overview'), this.tracks[0], lane_names(lanes, 'detail'), this.tracks[1]);
     this.root = root;
     this.#listen();
@@ -160,7 +160,7 @@ const percent = (part) => `${100 * part}%`;
 
 /** The names of lanes, beside them. */
 function lane_names(lanes, track) {
-  const names = lanes.map(({ name, about }) => element('span', { textContent: name, title: `Frames in which ${about}` }));
+  const names = lanes.map(({ name, about }) => element('span', { textContent: name, title: about ? `Frames in which ${about}` : '' }));
   return element('div', { className: `lane-names of-${track}` }, ...names);
 }
 
