@@ -76,8 +76,7 @@ Motion read_game_motion(const std::filesystem::path& file, std::size_t vertices,
 /// @param vertices  number of vertices each file must have
 /// @param limits    of each file, and of the number of files
 /// @throws Bad_motion  no file, too many files, a file that does not exist, a broken first file; from `pose`: a broken
-/// file, a wrong
-///                     number of vertices, faces that differ from those of the first file
+///                     file, a wrong number of vertices, faces that differ from those of the first file
 Motion read_mesh_sequence(std::vector<std::filesystem::path> files, std::size_t vertices,
                           const Mesh_file_options& limits = {});
 
