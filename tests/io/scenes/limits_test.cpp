@@ -110,7 +110,7 @@ TEST_F(Input_limits, are_those_of_the_frames_of_a_scene) {
 TEST_F(Input_limits, are_those_of_the_frames_of_a_point_cache) {
   write_moving_tetrahedron(folder.path() / "a", 5);
   const auto cache = folder.path() / "a.pc2";
-  const auto moving = folder.path() / "a.off+a.pc2";
+  const std::filesystem::path moving = (folder.path() / "a.off").string() + "+" + cache.string();
   const auto scene = folder.write("cached.json", with_object(R"("mesh": "a.off", "motion": {"pc2": "a.pc2"})"));
   EXPECT_EQ(read_animation(moving, {.limits = {.max_frames = 5}}).motion.frames, 5U);
   EXPECT_EQ(read_scene(scene, {.limits = {.max_frames = 5}}).frames, 5U);
