@@ -157,7 +157,8 @@ test('objects without vertices, which have been removed, do not count for what i
 test('a thin part that samples miss is among the vertices that stick out', () => {
   const count = 5000;
   const q = new Uint16Array(3 * count).fill(30000);
-  for (const [vertex, place] of [[1234, [65535, 65535, 65535]], [77, [0, 30000, 30000]]]) q.set(place, 3 * vertex);
+  const tips = [[1234, [50000, 50000, 50000]], [77, [0, 30000, 30000]], [901, [65535, 30000, 30000]], [902, [30000, 65535, 30000]], [903, [30000, 30000, 65535]]];
+  for (const [vertex, place] of tips) q.set(place, 3 * vertex);
   const object = { vertices: count, box: [-1, -1, -1, 1, 1, 1], frames: [new Uint16Array(3 * count).fill(30000), q] };
   const places = new Places(object, common_ball([object]));
   const holds = (list, vertex) => list.some((place) => String(place) === String(places.of_vertex(1, vertex)));
