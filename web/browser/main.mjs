@@ -54,7 +54,7 @@ async function take(list) {
   by_id('clear').hidden = false;
   by_id('answer').classList.remove('problem');
   by_id('answer').textContent = 'Checking …';
-  by_id('viewer').hidden = true;  // It shows the meshes before.
+  by_id('viewer').hidden = true;  // It still shows the earlier meshes.
   const question = ++asked;
   const names = chosen.map(({ name }) => name);
   const read = async (file) => ({ name: file.name.replaceAll('/', '_'), bytes: await file.arrayBuffer() });

@@ -56,8 +56,9 @@ export async function read_page(text) {
     return of_each_frame(name, parse_or_complain(name, () => parse(new TextDecoder().decode(content))), header.frames);
   };
   const objects = [];
-  if (!Array.isArray(header.objects ?? []) || !(header.objects ?? []).every(is_object)) throw new Damaged('header: objects are not a list');
-  for (const object of header.objects ?? []) objects.push(await read_object(object, header.frames, section));
+  const listed = header.objects ?? [];
+  if (!Array.isArray(listed) || !listed.every(is_object)) throw new Damaged('header: objects are not a list');
+  for (const object of listed) objects.push(await read_object(object, header.frames, section));
   return {
     header,
     objects,

@@ -40,7 +40,7 @@ export function listen_to_keys({ player, shown, reset, turn }) {
     if (shown.available.some((layer) => layer.key === key)) acts[String(i + 1)] = () => shown.set_layer(key, !shown.layers[key]);
   });
   document.addEventListener('keydown', (event) => {
-    const act = acts[event.key] ?? acts[event.key.toLowerCase()];  // Caps Lock makes capital letters.
+    const act = acts[event.key] ?? acts[event.key?.toLowerCase()];  // Caps Lock makes capital letters.
     if (!act || event.ctrlKey || event.metaKey || event.altKey || is_for_element(event)) return;
     if (dialog.open && event.key !== '?') return;
     event.preventDefault();

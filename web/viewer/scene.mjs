@@ -54,6 +54,7 @@ export class View {
     this.frame = 0;
     this.stale = true;
     this.moved = this.held = false;
+    this.turned = -Infinity;  // when the wheel was
     this.controls.addEventListener('start', () => (this.held = true));
     this.controls.addEventListener('end', () => {
       this.held = false;
@@ -138,10 +139,11 @@ export class View {
   #aim({ deltaY, clientX, clientY, timeStamp }) {
     this.moved = true;
     this.controls.zoomToCursor = deltaY < 0;
+    // A turn of the wheel is many events: the camera comes along the same ray, so the first of them aims for all.
     const pause_ms = 100;
-    const since = this.aimed;
-    this.aimed = timeStamp;
-    if (deltaY >= 0 || timeStamp - since < pause_ms) return;
+    const goes_on = timeStamp - this.turned < pause_ms;
+    this.turned = timeStamp;
+    if (deltaY >= 0 || goes_on) return;
     const { distance, along } = this.look_at(clientX, clientY);
     if (distance === Infinity) return;
     const forward = this.camera.getWorldDirection(new Vector3());

@@ -12,9 +12,9 @@
 #include "io/files/json_reader.h"
 #include "io/files/small_text.h"
 #include "io/files/unique_names.h"
+#include "io/scenes/face_count.h"
 #include "io/scenes/object_of.h"
 #include "io/scenes/scene_fields.h"
-#include "io/scenes/scene_folder.h"
 #include "io/scenes/shared_clock.h"
 #include "lodestone/io/files/numbered_files.h"
 #include "lodestone/io/meshes/mesh_file.h"
@@ -117,12 +117,10 @@ Scene scene_of(std::span<const std::filesystem::path> inputs, const Scene_option
   if (inputs.size() > options.max_objects)
     throw Bad_scene(fmt::format("{} inputs, where at most {} objects are allowed", inputs.size(), options.max_objects));
   Unique_names names;
-  std::size_t faces = 0;
+  detail::Face_count faces(options.max_scene_faces);
   for (const auto& input : inputs) {
     auto& object = scene.objects.emplace_back(any_object(input, options));
-    faces += object.mesh.number_of_faces();
-    if (const auto fault = detail::too_many_faces_together(faces, options))
-      throw Bad_scene(fmt::format("{}: {}", input.string(), *fault));
+    if (const auto fault = faces.add(object)) throw Bad_scene(fmt::format("{}: {}", input.string(), *fault));
     object.name = names.take(object.name);
   }
   share_clock(scene.objects);

@@ -17,6 +17,7 @@
 #include "io/files/small_text.h"
 #include "io/motion/keep_joined.h"
 #include "io/motion/mesh_sequence.h"
+#include "io/scenes/face_count.h"
 #include "io/scenes/object_of.h"
 #include "io/scenes/scene_fields.h"
 #include "io/scenes/scene_folder.h"
@@ -196,11 +197,10 @@ Scene_object read_object(const Json_value& value, Scene_folder& folder) {
 std::vector<Scene_object> read_objects(const Json_value& value, Scene_folder& folder) {
   std::vector<Scene_object> objects;
   std::set<std::string> names;
-  std::size_t faces = 0;
+  detail::Face_count faces(folder.options().max_scene_faces);
   for (const Json_value& element : value.elements(folder.options().max_objects)) {
     objects.push_back(read_object(element, folder));
-    faces += objects.back().mesh.number_of_faces();
-    if (const auto fault = detail::too_many_faces_together(faces, folder.options())) element.fail(*fault);
+    if (const auto fault = faces.add(objects.back())) element.fail(*fault);
     const std::string& name = objects.back().name;
     if (!names.insert(name).second)
       element.at("name").fail(fmt::format("{} is taken by an object above", as_json(name)));

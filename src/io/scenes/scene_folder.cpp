@@ -35,12 +35,6 @@ fs::path Scene_folder::path_of(const std::string& name, const Json_value& value)
   return found_.back();
 }
 
-std::optional<std::string> too_many_faces_together(std::size_t faces, const Scene_options& options) {
-  if (faces <= options.max_scene_faces) return std::nullopt;
-  return fmt::format("the objects up to this one have {} faces together, where at most {} are allowed", faces,
-                     options.max_scene_faces);
-}
-
 fs::path Scene_folder::file(const Json_value& value) { return path_of(value.text(), value); }
 
 std::vector<fs::path> Scene_folder::numbered_files(const Json_value& value) {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,9 +11,6 @@
 #include "lodestone/io/scenes/scene_file.h"
 
 namespace lodestone::detail {
-
-/// What is wrong with a scene whose objects so far have that many faces; nothing if the options allow them.
-std::optional<std::string> too_many_faces_together(std::size_t faces, const Scene_options& options);
 
 /// Finds the files that a scene names, relative to the scene's folder, and remembers them.
 class Scene_folder {
