@@ -41,8 +41,9 @@ class Crew {
  private:
   static constexpr std::size_t most_members = 255;
 
-  /// Tasks that a worker has not begun yet.
-  struct Left {
+  /// Tasks that a worker has not begun yet. Aligned like a word, without which Clang reads and writes both at once only
+  /// with a lock.
+  struct alignas(std::uint64_t) Left {
     std::uint32_t first, end;
     std::uint32_t count() const { return end - first; }
   };

@@ -60,7 +60,7 @@ inline std::string joined_vertices_note(const std::string& name, std::size_t joi
   if (joined == 0) return {};
   std::vector<std::uint32_t> in_file(file_vertex.begin(), file_vertex.end());
   std::ranges::sort(in_file);
-  const auto copies = std::ranges::unique(in_file).size();
+  const auto copies = in_file.end() - std::unique(in_file.begin(), in_file.end());
   return fmt::format(
       "{}: {} of {} vertices{} lie on others along seams: particles walk across (--open-seams: they do not)", name,
       joined, file_vertex.size(),

@@ -53,8 +53,8 @@ std::span<const std::uint32_t> Leaf_neighbours::leaves_at(std::uint32_t v, std::
   if (vertex_faces_->at(w).size() < vertex_faces_->at(v).size()) std::swap(v, w);
   if (vertex_faces_->at(v).size() > many) {
     const Crowd& crowd = crowd_at(v);
-    const auto at = std::ranges::equal_range(crowd.ends, w);
-    return std::span(crowd.leaves).subspan(static_cast<std::size_t>(at.begin() - crowd.ends.begin()), at.size());
+    const auto [begin, end] = std::equal_range(crowd.ends.begin(), crowd.ends.end(), w);
+    return std::span(crowd.leaves.begin() + (begin - crowd.ends.begin()), crowd.leaves.begin() + (end - crowd.ends.begin()));
   }
   leaves_.clear();
   for (const auto face : vertex_faces_->at(v))

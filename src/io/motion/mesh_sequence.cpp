@@ -93,8 +93,7 @@ std::size_t first_of(const Joined_vertices& joined, std::size_t vertex) {
 /// Each vertex once, ascending.
 std::vector<std::size_t> as_set(std::vector<std::size_t> vertices) {
   std::ranges::sort(vertices);
-  const auto repeated = std::ranges::unique(vertices);
-  vertices.erase(repeated.begin(), repeated.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
 }
 
