@@ -49,3 +49,8 @@ void Arena::run(std::size_t tasks, const std::function<void(std::size_t, std::si
 }
 
 }  // namespace lodestone
+
+#if defined(LODESTONE_TSAN)
+/// oneTBB's library is not instrumented: what it calls by itself, such as memcmp, looks like a race.
+extern "C" const char* __tsan_default_suppressions() { return "called_from_lib:libtbb.so\n"; }
+#endif

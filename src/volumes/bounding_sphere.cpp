@@ -71,8 +71,11 @@ void enclose_scaled(kernel::Leaf_points& points, Bounding_sphere& ball) {
 
 bool all_finite(const kernel::Leaf_points& points) {
   bool finite = true;
-  for (std::size_t i = 0; i < points.size; ++i)
-    finite &= std::isfinite(points.x[i]) & std::isfinite(points.y[i]) & std::isfinite(points.z[i]);
+  for (std::size_t i = 0; i < points.size; ++i) {
+    finite &= std::isfinite(points.x[i]);
+    finite &= std::isfinite(points.y[i]);
+    finite &= std::isfinite(points.z[i]);
+  }
   return finite;
 }
 

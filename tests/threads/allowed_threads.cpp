@@ -31,8 +31,3 @@ TEST(Allowed_threads, are_as_many_as_tests_ask_for) {
 
 }  // namespace
 }  // namespace lodestone
-
-#if defined(__SANITIZE_THREAD__)
-/// oneTBB's library is not instrumented: what it calls by itself, such as memcmp, looks like a race.
-extern "C" const char* __tsan_default_suppressions() { return "called_from_lib:libtbb.so\n"; }
-#endif
