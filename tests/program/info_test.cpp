@@ -175,7 +175,10 @@ TEST_F(Info, lists_what_a_file_holds_and_the_library_does_not_read) {
   const auto text = run_program({"info", file}).out;
   EXPECT_NE(text.find("EXT_mesh_gpu_instancing, KHR_animation_pointer, materials"), std::string::npos) << text;
   sample.json["animations"][1]["channels"][0]["target"] = moved("/materials/0/alphaCutoff");
-  sample.json["nodes"][0].erase("extensions");
+  sample.json["nodes"][0]["extensions"] = {{"KHR_node_visibility", {{"visible", false}}}};
+  const Json hidden{"KHR_node_visibility", "materials"};
+  EXPECT_EQ(info({write("hidden.glb", sample.glb())})["objects"].at(0)["not_read"], hidden);
+  sample.json["nodes"][0]["extensions"] = {{"KHR_node_visibility", {{"visible", true}}}};
   EXPECT_EQ(info({write("faded.glb", sample.glb())})["objects"].at(0)["not_read"], Json{"materials"});
   EXPECT_FALSE(info({write("a.off", square_off)})["objects"].at(0).contains("not_read"));
 }

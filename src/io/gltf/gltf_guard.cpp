@@ -7,6 +7,7 @@
 #include <array>
 #include <limits>
 #include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -97,6 +98,7 @@ class Guard {
   const Accessor& expect(const Json_value& place, std::string_view type, bool whole) const;
   Json copy_mesh(const Json_value& mesh);
   Json copy_primitive(const Json_value& primitive, std::size_t& targets) const;
+  void expect_uncompressed(const Json_value& primitive, std::size_t positions) const;
   Json copy_attributes(const Json_value& attributes, std::size_t& vertices) const;
   Json copy_skin(const Json_value& skin) const;
   Json copy_node(const Json_value& node);
@@ -195,6 +197,8 @@ Json Guard::copy_accessor(const Json_value& value) {
       const auto number = index(*view, "buffer views", views_.size());
       const auto offset = value.count("byteOffset", 0, most_bytes, 0);
       const auto stride = views_[number].stride > 0 ? views_[number].stride : bytes;
+      if (stride < bytes)
+        value.fail(fmt::format("elements of {} bytes are {} bytes apart in the buffer view", bytes, stride));
       expect_room(value, number, offset, accessor.count, bytes, stride);
       plain["bufferView"] = number;
       plain["byteOffset"] = offset;
@@ -281,6 +285,7 @@ Json Guard::copy_primitive(const Json_value& primitive, std::size_t& targets) co
   std::size_t vertices = 0;
   Json plain{{"attributes", copy_attributes(primitive.at("attributes"), vertices)},
              {"mode", primitive.count("mode", 0, 6, 4)}};
+  expect_uncompressed(primitive, plain["attributes"]["POSITION"].get<std::size_t>());
   if (const auto indices = primitive.find("indices")) {
     expect(*indices, "SCALAR", true);
     // tinygltf refuses an accessor of indices that has no buffer view.
@@ -301,6 +306,15 @@ Json Guard::copy_primitive(const Json_value& primitive, std::size_t& targets) co
     ++targets;
   }
   return plain;
+}
+
+/// A file that calls compression optional must store a copy without it. Where there is none, all positions would be 0.
+void Guard::expect_uncompressed(const Json_value& primitive, std::size_t positions) const {
+  const auto extensions = primitive.find("extensions");
+  const auto& accessor = plain_["accessors"][positions];
+  if (!extensions || !extensions->has("KHR_draco_mesh_compression")) return;
+  if (!accessor.contains("bufferView") && !accessor.contains("sparse"))
+    primitive.fail("is stored by KHR_draco_mesh_compression alone, which is not supported");
 }
 
 /// Copies POSITION, and the pairs JOINTS_n and WEIGHTS_n.
@@ -419,6 +433,7 @@ Json Guard::copy_animation(const Json_value& animation) const {
   // Exporters leave animations without a channel behind, which move nothing.
   for (const auto& sampler : animation.list("samplers", most_elements))
     plain["samplers"].push_back(copy_sampler(sampler));
+  std::set<std::pair<std::size_t, std::string>> taken;
   for (const auto& channel : animation.list("channels", most_elements)) {
     const auto sampler = index(channel.at("sampler"), "samplers", plain["samplers"].size());
     const auto target = channel.at("target");
@@ -428,6 +443,8 @@ Json Guard::copy_animation(const Json_value& animation) const {
     const auto node = index(target.at("node"), "nodes", nodes_);
     if (path == "weights" && targets_of(node) == 0) continue;  // as exporters write them for meshes without targets
     check_channel(target, plain["samplers"][sampler]);
+    if (!taken.emplace(node, path).second)
+      target.fail(fmt::format("another channel of the animation has the {} of node {} too", path, node));
     plain["channels"].push_back({{"sampler", sampler}, {"target", {{"node", node}, {"path", path}}}});
   }
   return plain;

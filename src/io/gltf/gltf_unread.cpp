@@ -8,8 +8,11 @@ namespace lodestone {
 std::set<std::string> ignored_extensions(const nlohmann::json& document) {
   std::set<std::string> result;
   const nlohmann::json::json_pointer copies("/extensions/EXT_mesh_gpu_instancing");
-  for (const auto& node : document.value("nodes", nlohmann::json::array()))
+  const nlohmann::json::json_pointer visible("/extensions/KHR_node_visibility/visible");
+  for (const auto& node : document.value("nodes", nlohmann::json::array())) {
     if (node.contains(copies)) result.insert("EXT_mesh_gpu_instancing");
+    if (node.contains(visible) && node[visible] == false) result.insert("KHR_node_visibility");
+  }
   const nlohmann::json::json_pointer pointer("/target/extensions/KHR_animation_pointer/pointer");
   for (const auto& animation : document.value("animations", nlohmann::json::array()))
     for (const auto& channel : animation.value("channels", nlohmann::json::array())) {

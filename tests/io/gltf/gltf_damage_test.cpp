@@ -264,6 +264,36 @@ TEST_F(Gltf_damage, values_of_the_wrong_kind_are_refused) {
   expect_error(keys.gltf(), "2 times need 2 keys, found 1");
 }
 
+TEST_F(Gltf_damage, elements_that_overlap_in_their_buffer_view_are_refused) {
+  auto sample = square_gltf();
+  const std::size_t view = sample.json["accessors"][0]["bufferView"];
+  sample.json["bufferViews"][view]["byteStride"] = 8;
+  expect_error(sample.gltf(), "/accessors/0: elements of 12 bytes are 8 bytes apart in the buffer view");
+  sample.json["bufferViews"][view]["byteStride"] = 12;
+  EXPECT_EQ(read_mesh(folder.write("a.gltf", sample.gltf())).mesh.number_of_faces(), 2U);
+}
+
+TEST_F(Gltf_damage, a_mesh_without_a_copy_that_is_not_compressed_is_refused) {
+  auto sample = square_gltf();
+  auto& primitive = sample.json["meshes"][0]["primitives"][0];
+  primitive["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}, {"attributes", {{"POSITION", 0}}}};
+  EXPECT_EQ(read_mesh(folder.write("a.gltf", sample.gltf())).mesh.number_of_faces(), 2U);
+  sample.json["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()].erase("bufferView");
+  expect_error(sample.gltf(), "/meshes/0/primitives/0: is stored by KHR_draco_mesh_compression alone");
+}
+
+TEST_F(Gltf_damage, two_channels_with_one_target_are_refused) {
+  auto sample = square_gltf();
+  const auto times = sample.add_numbers({0, 1});
+  sample.animate(0, "translation", times, sample.add_points({0, 0, 0, 1, 0, 0}));
+  sample.animate(0, "scale", times, sample.add_points({1, 1, 1, 2, 2, 2}));
+  EXPECT_EQ(read_mesh(folder.write("a.gltf", sample.gltf())).mesh.number_of_faces(), 2U);
+  sample.animate(0, "translation", times, sample.add_points({0, 0, 0, 0, 1, 0}));
+  expect_error(sample.gltf(),
+               "/animations/0/channels/2/target: another channel of the animation has the translation "
+               "of node 0 too");
+}
+
 TEST_F(Gltf_damage, buffers_stay_in_the_folder) {
   const Temporary_folder other;
   const auto sample = square_gltf();
