@@ -13,12 +13,12 @@ namespace {
 
 /// Below this number, std::sort is about as fast, and much faster where the code of both has to come to the cache
 /// first.
-constexpr std::size_t few = 512;
+constexpr std::size_t pays_from = 512;
 
 }  // namespace
 
 void sort_face_pairs(std::span<Face_pair> pairs) {
-  if (pairs.size() < few) {
+  if (pairs.size() < pays_from) {
     std::ranges::sort(pairs);
     return;
   }

@@ -53,8 +53,9 @@ std::span<const std::uint32_t> Leaf_neighbours::leaves_at(std::uint32_t v, std::
   if (vertex_faces_->at(w).size() < vertex_faces_->at(v).size()) std::swap(v, w);
   if (vertex_faces_->at(v).size() > many) {
     const Crowd& crowd = crowd_at(v);
-    const auto [begin, end] = std::equal_range(crowd.ends.begin(), crowd.ends.end(), w);
-    return std::span(crowd.leaves.begin() + (begin - crowd.ends.begin()), crowd.leaves.begin() + (end - crowd.ends.begin()));
+    const auto [first, last] = std::equal_range(crowd.ends.begin(), crowd.ends.end(), w);
+    const auto leaf_of_end = [&](auto end) { return crowd.leaves.begin() + (end - crowd.ends.begin()); };
+    return std::span(leaf_of_end(first), leaf_of_end(last));
   }
   leaves_.clear();
   for (const auto face : vertex_faces_->at(v))
