@@ -35,10 +35,15 @@ void Particle_detection::update(Object_id id) {
     const Region_index checked = object.particle_object.last_checked();
     if (!object.named([&] { return has_outgrown(object.particle_object); })) return;
     Object* const outgrown[] = {&object};
+    double& distance = object.particle_object.particles().collision_distance;
+    const double radius_before = object.radius, distance_before = distance;
     try {
+      measure_new_radii();
       build(outgrown, Seams::keep);
     } catch (...) {
-      object.particle_object.check_after(checked);  // a call that is repeated finds it again
+      // The regions are still the old ones, unless memory has run out. A call that is repeated finds it again.
+      object.radius = radius_before, distance = distance_before;
+      object.particle_object.check_after(checked);
       throw;
     }
     ++since_last_frame_.repartitions;
@@ -118,6 +123,8 @@ const Frame& Particle_detection::detect(const Collision_filter& filter) {
     restore_vertices();
     throw;
   }
+  for (auto& object : objects_)
+    if (object) object->particle_object.note_stretch();
   return frame_.finish();
 }
 
@@ -161,12 +168,17 @@ void Particle_detection::prepare() {
   since_last_frame_.builds += fresh.size();
 }
 
-/// Until all is done the objects count as not prepared: if it fails, the next frame begins anew.
+/// Until all is done the objects count as not prepared: if it fails, the next frame begins anew. Where seams are kept,
+/// an object counts so only from when it has been divided: a strategy may refuse to divide it again.
 void Particle_detection::build(std::span<Object* const> objects, Seams seams) {
   std::vector<Building> all = read(objects);
-  for (Object* object : objects) object->prepared = false;
+  const auto begin_anew = [&] {
+    for (Object* object : objects) object->prepared = false;
+  };
+  if (seams != Seams::keep) begin_anew();
   measure(all, seams);
   divide(all);
+  begin_anew();
   start(all);
   for (Object* object : objects) write_maps(*object);
   has_room_ = false;
@@ -246,11 +258,27 @@ void Particle_detection::write_maps(Object& object) {
   object.particle_object.mesh().write_maps(object.particle_object.labels(), object.particle_object.particles().at);
 }
 
+/// Finds the radii of objects that have not been built yet: how many particles another one gets depends on them.
+void Particle_detection::measure_new_radii() {
+  if (options_.particles > 0) return;
+  for (auto& object : objects_)
+    if (object && !object->prepared)
+      object->radius = object->named(
+          [&] { return radius_of(object->particle_object, object->particle_object.read_positions()); });
+}
+
+/// Those of all objects with extent.
 Radius_range Particle_detection::radii() const {
   std::vector<double> radii;
-  for (const auto& object : objects_)
-    if (object) radii.push_back(object->radius);
-  return radius_range(radii);
+  std::size_t count = 0;
+  for (const auto& object : objects_) {
+    if (!object) continue;
+    ++count;
+    if (object->radius > 0) radii.push_back(object->radius);
+  }
+  Radius_range range = radii.empty() ? Radius_range() : radius_range(radii);
+  range.count = count;
+  return range;
 }
 
 std::size_t Particle_detection::particles_of(const Object& object, const Positions& positions,

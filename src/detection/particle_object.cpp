@@ -98,11 +98,10 @@ void Particle_object::start_particles(std::vector<std::uint32_t> vertices, const
   if (particles_.at.size() == 1) {
     // One particle has no other to measure its reach by: it feels as far as the object is wide, and may walk all of it.
     particles_.effective_radius = 2 * bounding_sphere(positions, corners()).radius;
-    particles_.hop_limit = hop_eccentricity(edges_.graph, particles_.at.front());
   } else {
     particles_.effective_radius = effective_radius(particles_.positions);
-    particles_.hop_limit = hop_diameter(edges_.graph, particles_.at);
   }
+  particles_.hop_limit = hop_reach(edges_.graph, particles_.at);
 }
 
 /// Makes room for the positions of all patches.
@@ -167,6 +166,7 @@ void Particle_object::prepare_meetings(const Positions& positions, const Region_
   tree_.start_frame(Live_positions(positions.data()));  // as they were read: other threads may be reading the mesh
   region_anchors_ = Region_anchors(tree_, corners(), labels_, coordinates);
   tree_.start_frame(read_);
+  last_stretch_ = 1;
 }
 
 Leaf_neighbours& Particle_object::leaf_neighbours() {
@@ -254,7 +254,7 @@ void Particle_object::measure_extents(const Live_positions& at, Workers& workers
 }
 
 bool Particle_object::seemed_larger(double growth) const {
-  return std::pow(tree_.stretch(), 2) > std::max(growth, 1.02);
+  return std::pow(last_stretch_, 2) > std::max(growth, 1.02);
 }
 
 bool Particle_object::has_outgrown(double growth, std::size_t most_regions) {

@@ -30,6 +30,14 @@ class Hop_search {
     return result;
   }
 
+  /// The largest number of hops from `source`.
+  std::size_t eccentricity(std::uint32_t source) {
+    const auto reached = search(source);
+    const std::size_t farthest = hops_[reached.back()];
+    for (const auto vertex : reached) hops_[vertex] = unreached;
+    return farthest;
+  }
+
   /// The targets by component, in their order; components in the order of their first targets. O(V + E).
   std::vector<std::vector<std::uint32_t>> by_component(std::span<const std::uint32_t> targets) {
     std::vector<std::vector<std::uint32_t>> groups;
@@ -108,13 +116,6 @@ std::vector<std::uint32_t> breadth_first_hops(const Vertex_graph& graph, std::ui
   return hops;
 }
 
-std::size_t hop_eccentricity(const Vertex_graph& graph, std::uint32_t source) {
-  std::size_t farthest = 0;
-  for (const auto hops : breadth_first_hops(graph, source))
-    if (hops != unreached) farthest = std::max<std::size_t>(farthest, hops);
-  return farthest;
-}
-
 namespace {
 
 /// The largest hop distance of targets of one component, or `diameter` if none is larger.
@@ -150,6 +151,15 @@ std::size_t hop_diameter(const Vertex_graph& graph, std::span<const std::uint32_
   Hop_search search(graph);
   for (const auto& group : search.by_component(targets)) diameter = larger_diameter(search, group, diameter);
   return diameter;
+}
+
+std::size_t hop_reach(const Vertex_graph& graph, std::span<const std::uint32_t> targets) {
+  std::size_t reach = 0;
+  Hop_search search(graph);
+  for (const auto& group : search.by_component(targets))
+    reach =
+        group.size() == 1 ? std::max(reach, search.eccentricity(group.front())) : larger_diameter(search, group, reach);
+  return reach;
 }
 
 }  // namespace lodestone

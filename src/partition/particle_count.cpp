@@ -47,6 +47,12 @@ std::vector<std::vector<std::uint32_t>> smooth_parts(const Vertex_graph& graph, 
   return parts;
 }
 
+std::size_t vertices_with_edges(const Vertex_graph& graph) {
+  std::size_t count = 0;
+  for (std::uint32_t v = 0; v < num_vertices(graph); ++v) count += out_degree(v, graph) > 0 ? 1 : 0;
+  return count;
+}
+
 /// Keeps the parts that are large enough; if these are too many, the largest of them.
 void keep_large_parts(std::vector<std::vector<std::uint32_t>>& parts, std::size_t vertex_count,
                       const Particle_count_options& options) {
@@ -126,12 +132,13 @@ std::vector<Sphere> sphere_collection(const Vertex_graph& graph, const Positions
                                       std::span<const Corners> faces, const Particle_count_options& options) {
   check(options);
   auto critical = critical_vertices(graph, vertex_normals(positions, faces), options.crease_degrees);
+  const std::size_t vertex_count = vertices_with_edges(graph);
   auto parts = smooth_parts(graph, critical);
-  keep_large_parts(parts, positions.rows(), options);
+  keep_large_parts(parts, vertex_count, options);
   if (parts.empty()) {
     critical.assign(critical.size(), false);
     parts = smooth_parts(graph, critical);
-    keep_large_parts(parts, positions.rows(), options);
+    keep_large_parts(parts, vertex_count, options);
   }
 
   std::vector<Sphere> spheres;

@@ -84,14 +84,15 @@ Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& 
   result.statistics.iterations = labelling.iterations;
   result.statistics.distance_evaluations = labelling.distance_evaluations;
 
-  result.regions = 1 + *std::ranges::max_element(result.labels);
+  // A strategy may leave out labels. They are no regions.
+  const std::size_t labels = 1 + *std::ranges::max_element(result.labels);
+  result.regions = drop_regions_without_edges(graph, result.labels, labels);
   auto& repair = result.statistics.repair;
   if (options.keep_islands)
     repair = {.regions = result.regions, .parts_before = count_parts(graph, result.labels)};
   else
     repair = repair_islands(graph, result.labels, result.regions, wanted_of(labelling, result.regions));
   result.regions = repair.regions;
-  result.regions = drop_regions_without_edges(graph, result.labels, result.regions);
 
   if (labelling.vectors.size() == 0) labelling.vectors = used_feature_vectors({graph, positions, faces});
   result.particles = seed_particles(graph, labelling.vectors, result.labels, result.regions);

@@ -38,6 +38,9 @@ Region_anchors::Region_anchors(Tree_on_demand& tree, std::span<const Corners> co
   probes_ = probes(layout, rest);
   const Eigen::Vector3d middle = mean(tree);
   for (const auto node : probes_) rest_distances_.push_back((tree.anchor(node) - middle).norm());
+  // What rounding leaves of a distance would tell nothing.
+  constexpr double least = 0x1p-20;
+  if (std::ranges::max(rest_distances_) <= least * tree.radius(0)) std::ranges::fill(rest_distances_, 0.0);
 }
 
 void Region_anchors::make_room() {
@@ -127,19 +130,23 @@ void Region_anchors::note_stretch(Tree_on_demand& tree, const Eigen::Vector3d& m
   tree.note_distance(std::sqrt(squares), std::sqrt(rest_squares));
 }
 
-/// A surface of one leaf has one anchor, which tells nothing. To read all of it takes no longer than to read the
-/// anchors of a larger one.
-void Region_anchors::note_farthest(Tree_on_demand& tree) {
-  tree.pose(0);
-  const Leaf_faces leaf = tree.view().leaf(0);
-  double farthest = 0;
-  for (std::size_t i = 0; i < leaf.vertices.size(); ++i)
-    farthest = std::max(farthest, (Eigen::Map<const Eigen::Vector3d>(leaf.position(i)) - tree.anchor(0)).squaredNorm());
-  tree.note_distance(std::sqrt(farthest), tree.radius(0));
+/// Anchors at one point tell nothing: where there is one leaf, and where all faces have a vertex in common. Then some
+/// leaves are read.
+void Region_anchors::note_farthest(Tree_on_demand& tree) const {
+  for (const auto probe : probes_) {
+    const std::uint32_t leaf = tree.layout().node(probe).leaf, node = tree.layout().leaf_node(leaf);
+    tree.pose(leaf);
+    const Leaf_faces faces = tree.view().leaf(leaf);
+    const Eigen::Vector3d& anchor = tree.anchor(node);
+    double farthest = 0;
+    for (std::size_t i = 0; i < faces.vertices.size(); ++i)
+      farthest = std::max(farthest, (Eigen::Map<const Eigen::Vector3d>(faces.position(i)) - anchor).squaredNorm());
+    tree.note_distance(std::sqrt(farthest), tree.radius(node) / tree.stretch());
+  }
 }
 
 void Region_anchors::read(Tree_on_demand& tree, double reach) {
-  if (tree.layout().leaf_count() == 1)
+  if (std::ranges::max(rest_distances_) == 0)
     note_farthest(tree);
   else
     note_stretch(tree, mean(tree));

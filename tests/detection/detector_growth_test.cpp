@@ -171,5 +171,98 @@ TEST(Detector, repartitions_never_if_told_so) {
   EXPECT_EQ(detector.detect().statistics.repartitions, 0U);
 }
 
+TEST(Detector, an_object_whose_regions_share_their_anchor_is_found_when_it_has_grown) {
+  const auto shape = tetrahedron();
+  for (const double factor : {1.1, 2.0})
+    for (const auto tip : shape.vertices()) {
+      Owned_meshes scene{shape, shape};
+      shift(scene[1], 9);
+      Detector<> detector({.mode = Mode::particles});
+      add_all(detector, scene);
+      EXPECT_FALSE(detector.detect().collides());
+      scale(scene[0], factor);
+      for (const auto v : shape.vertices())
+        scene[1].point(v) =
+            scene[0].point(tip) + 0.02 * (shape.point(v) - CGAL::midpoint(shape.point(tip), shape.point(v)));
+      if (factor < 2) detector.update();
+      EXPECT_FALSE(exhaustive_face_pairs(scene[0], scene[1]).empty());
+      EXPECT_TRUE(detector.detect().collides()) << factor << " " << tip;
+    }
+}
+
+/// Two halves along x, or an error.
+struct Refusing {
+  static constexpr std::string_view name = "refusing";
+  const bool* refuses;
+  template <Triangle_mesh Mesh>
+  Labelling operator()(const Partition_input<Mesh>& input, std::size_t) const {
+    if (*refuses) throw Bad_argument("not now");
+    Labelling result;
+    for (const double x : input.positions.col(0)) result.labels.push_back(x < 0 ? 0 : 1);
+    return result;
+  }
+};
+
+TEST(Detector, an_object_that_a_strategy_does_not_divide_again_keeps_its_regions) {
+  for (const std::size_t meetings : {0, 8}) {
+    auto scene = two_spheres(9);
+    bool refuses = false;
+    Detector<Refusing> detector({.mode = Mode::particles, .particles = 2, .meetings = meetings}, {&refuses});
+    add_all(detector, scene);
+    detector.detect();
+    const auto regions = detector.regions(0);
+    const double distance = detector.object(0).particles().collision_distance;
+    scale(scene[0], 2);
+    refuses = true;
+    EXPECT_THROW(detector.update(), Bad_argument);
+    EXPECT_EQ(detector.regions(0), regions);
+    EXPECT_EQ(detector.object(0).particles().collision_distance, distance);
+    const Frame& frame = detector.detect();
+    EXPECT_EQ(frame.statistics.builds + frame.statistics.repartitions, 0U);
+    refuses = false;
+    detector.update();
+    EXPECT_EQ(detector.detect().statistics.repartitions, 1U);
+    EXPECT_NE(detector.object(0).particles().collision_distance, distance);
+  }
+}
+
+TEST(Detector, a_frame_that_fails_does_not_change_when_an_object_is_repartitioned) {
+  std::size_t repartitions = 0;
+  auto scene = two_spheres(9);
+  const Detector_options options{.mode = Mode::particles, .particles = 16};
+  Detector<> plain(options), disturbed(options);
+  for (auto* detector : {&plain, &disturbed})
+    for (const auto& mesh : scene) detector->add(mesh);
+  plain.detect(), disturbed.detect();
+  const auto good = scene[1];
+  for (int step = 0; step < 12; ++step) {
+    scale(scene[0], 1.03);
+    const std::size_t expected = plain.detect().statistics.repartitions;
+    EXPECT_EQ(disturbed.detect().statistics.repartitions, expected) << step;
+    repartitions += expected;
+    deform(scene[1], [](const Point& p) { return Point(p.x(), p.y(), std::nan("")); });
+    EXPECT_THROW(disturbed.detect(), Bad_mesh);
+    for (const auto v : good.vertices()) scene[1].point(v) = good.point(v);
+    plain.update(), disturbed.update();
+  }
+  EXPECT_GT(repartitions, 0U);
+}
+
+TEST(Detector, particles_are_counted_beside_the_smallest_object_with_an_extent) {
+  auto scene = two_spheres(20);
+  scene.push_back(single_triangle());
+  deform(scene[2], [](const Point&) { return Point(0, 0, 50); });
+  scale(scene[0], 3);
+  Detector<> detector({.mode = Mode::particles, .least_particles = 1});
+  add_all(detector, scene);
+  detector.detect();
+  EXPECT_EQ(detector.object(0).particles().at.size(), shadow_particle_count(3, 1));
+  scale(scene[0], 2);
+  detector.rebuild(1);
+  detector.update();
+  detector.detect();
+  EXPECT_EQ(detector.object(0).particles().at.size(), shadow_particle_count(6, 1));
+}
+
 }  // namespace
 }  // namespace lodestone

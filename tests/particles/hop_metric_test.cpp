@@ -116,5 +116,22 @@ TEST(Hop_diameter, of_thousands_of_components_is_that_of_the_widest) {
   EXPECT_EQ(hop_diameter(graph, targets), 2U);
 }
 
+TEST(Hop_reach, is_the_diameter_of_targets_that_are_not_alone) {
+  const auto graph = vertex_graph(30, grid_faces(6, 5));
+  const std::vector<std::uint32_t> none, three{0, 14, 28};
+  EXPECT_EQ(hop_reach(graph, none), 0U);
+  EXPECT_EQ(hop_reach(graph, three), 4U);
+}
+
+TEST(Hop_reach, of_a_target_that_is_alone_is_how_far_its_component_reaches) {
+  // Four faces in a row, and one.
+  const std::vector<Corners> faces{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}, {6, 7, 8}};
+  const auto graph = vertex_graph(9, faces);
+  const std::vector<std::uint32_t> end{0}, each{0, 7}, near_and_alone{0, 1, 7};
+  EXPECT_EQ(hop_reach(graph, end), 3U);
+  EXPECT_EQ(hop_reach(graph, each), 3U);
+  EXPECT_EQ(hop_reach(graph, near_and_alone), 1U);
+}
+
 }  // namespace
 }  // namespace lodestone

@@ -222,5 +222,11 @@ TEST(Particle_count, an_ellipsoid_is_no_sphere_and_is_counted_by_its_shadow) {
   EXPECT_EQ(particle_count(spheres, radius_range(std::vector<double>(20, spheres[0].radius))), 14U);
 }
 
+TEST(Sphere_collection, vertices_without_edges_do_not_count_for_the_share_of_a_part) {
+  auto mesh = cube(10);
+  for (int i = 0; i < 20'000; ++i) mesh.add_vertex({1000, 0, 0});
+  EXPECT_EQ(spheres_of(mesh).size(), 6U);
+}
+
 }  // namespace
 }  // namespace lodestone

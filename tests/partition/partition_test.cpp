@@ -219,5 +219,28 @@ TEST(Partition, bad_input_is_refused) {
   EXPECT_THROW(divide(mesh, 2), Bad_mesh);
 }
 
+/// The first vertex gets one label, all others another.
+struct Two_labels {
+  static constexpr std::string_view name = "two labels";
+  Region_index others;
+  template <class Mesh>
+  Labelling operator()(const Partition_input<Mesh>& input, std::size_t) const {
+    Labelling labelling{.labels = std::vector<Region_index>(static_cast<std::size_t>(input.positions.rows()), others)};
+    labelling.labels.front() = 0;
+    return labelling;
+  }
+};
+
+TEST(Partition, labels_that_a_strategy_leaves_out_are_no_regions) {
+  Surface_mesh mesh;
+  for (int i = 0; i < 100; ++i) append(mesh, single_triangle());
+  const auto expected = divide(mesh, 4, Two_labels{1});
+  for (const Region_index others : {2U, 60U, 67U, 68U, 299U}) {
+    const auto found = divide(mesh, 4, Two_labels{others});
+    EXPECT_EQ(found.partition.regions, expected.partition.regions) << others;
+    EXPECT_EQ(found.labels, expected.labels) << others;
+  }
+}
+
 }  // namespace
 }  // namespace lodestone

@@ -309,5 +309,20 @@ TEST(Region_anchors, a_surface_that_was_stretched_in_the_last_frame_is_not_in_th
   EXPECT_LT(object.regions().box().sizes().maxCoeff(), 0.5 * before.sizes().maxCoeff());
 }
 
+TEST(Region_anchors, that_are_one_vertex_notice_that_the_surface_grows) {
+  std::vector<Face_soup> objects{Face_soup(tetrahedron())};
+  for (const std::uint32_t faces : {5, 12, 40, 190}) objects.push_back(fan_of_faces(faces, {0.1, 0.2, 0.3}, 0.5));
+  for (const auto& soup : objects) {
+    SCOPED_TRACE(soup.faces.size());
+    Anchored_object object(soup);
+    for (const double factor : {1.0, 1.1, 3.0})
+      for (const double offset : {0.0, 1e6}) {
+        object.move_to(placed(soup, factor, offset));
+        EXPECT_NEAR(object.tree().stretch(), factor, 1e-8);
+        expect_box_around(object);
+      }
+  }
+}
+
 }  // namespace
 }  // namespace lodestone

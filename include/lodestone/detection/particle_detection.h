@@ -114,6 +114,7 @@ class Particle_detection final : public Detection {
   void start(Building& building, Workers& workers);
   template <class Work>
   void for_each(std::span<Building> all, const Work& work);
+  void measure_new_radii();
   Radius_range radii() const;
   std::size_t particles_of(const Object& object, const Positions& positions, const Radius_range& radii) const;
   void write_maps(Object& object);

@@ -118,6 +118,8 @@ class Particle_object {
   Region_index last_checked() const { return last_checked_; }
   /// The next call looks at the region after this one first.
   void check_after(Region_index region) { last_checked_ = region; }
+  /// A frame ends, for `seemed_larger`.
+  void note_stretch() { last_stretch_ = tree_.stretch(); }
   /// Whether the anchors of the regions had spread by more than the growth limit in the last frame, if they were read
   /// in it. After `prepare_meetings`.
   bool seemed_larger(double growth) const;
@@ -192,6 +194,7 @@ class Particle_object {
   std::vector<Home> homes_;  ///< per region
   std::vector<Region_extent> extents_;
   Region_index last_checked_ = 0;  ///< the last region whose growth was looked at
+  double last_stretch_ = 1;        ///< of the whole object in the last frame that did not fail
   double largest_area_ = 0;        ///< A*
   double rest_compass_ = 0;        ///< `longest_compass` at the time of the partition
 

@@ -18,9 +18,6 @@ inline constexpr std::uint32_t unreached = std::numeric_limits<std::uint32_t>::m
 /// @return V; `unreached` in other components
 std::vector<std::uint32_t> breadth_first_hops(const Vertex_graph& graph, std::uint32_t source);
 
-/// Largest hop distance from `source` to a vertex of its component. O(V + E).
-std::size_t hop_eccentricity(const Vertex_graph& graph, std::uint32_t source);
-
 /// Largest hop distance between two of the given vertices.
 ///
 /// For the particles of an object this is R_max of \cite saenghaengtham2006, the most steps that a particle can need to
@@ -33,7 +30,13 @@ std::size_t hop_eccentricity(const Vertex_graph& graph, std::uint32_t source);
 /// @return hops (dimensionless); 0 for fewer than two vertices; pairs in different components do not count
 std::size_t hop_diameter(const Vertex_graph& graph, std::span<const std::uint32_t> targets);
 
-/// The same for a mesh.
+/// How far the particles of an object may have to walk: their `hop_diameter`. One that is alone in its component may
+/// have to walk all of it: there, the hops to the farthest vertex count. Cost as of `hop_diameter`.
+/// @param targets  n vertices of the graph
+/// @return hops (dimensionless); 0 for no vertex
+std::size_t hop_reach(const Vertex_graph& graph, std::span<const std::uint32_t> targets);
+
+/// The same as `hop_diameter`, for a mesh.
 template <Triangle_mesh Mesh>
 std::size_t hop_diameter(const Mesh& mesh, std::span<const Vertex<Mesh>> targets) {
   const Mesh_numbering<Mesh> numbering(mesh);

@@ -21,7 +21,7 @@ struct Sphere {
 /// Options of the rule that says how many particles an object gets.
 struct Particle_count_options {
   double crease_degrees = 40;        ///< a vertex whose normal differs by more from a neighbour's is critical; (0, 180]
-  double smallest_part = 0.02;       ///< parts with a smaller share of the vertices are ignored; [0, 1]
+  double smallest_part = 0.02;       ///< parts with a smaller share of the vertices with edges are ignored; [0, 1]
   std::size_t most_parts = 8;        ///< spheres per object at most; >= 1
   double equal_sizes = 0.05;         ///< radii that differ by no more than this share count as equal; >= 0
   double least_roundness = 0.7;      ///< least roundness at which an object counts as a sphere; [0, 1]
@@ -87,7 +87,8 @@ struct Radius_range {
 Radius_range radius_range(std::span<const double> radii);
 
 /// Particles for one object of a scene: `kissing_particle_count` for a sphere among objects of its own size; for any
-/// other object the sum of `shadow_particle_count` over its spheres, against the smallest object of the scene.
+/// other object the sum of `shadow_particle_count` over its spheres, against the smallest object of the scene. A
+/// detector leaves out objects without extent when it looks for that.
 ///
 /// @param object   spheres of the object
 /// @param radii    of all objects of the scene

@@ -66,7 +66,7 @@ class Region_anchors {
   void check_apart(const Tree_layout& layout, std::size_t regions) const;
   void make_room();
   Eigen::Vector3d mean(Tree_on_demand& tree) const;
-  static void note_farthest(Tree_on_demand& tree);
+  void note_farthest(Tree_on_demand& tree) const;
   void note_stretch(Tree_on_demand& tree, const Eigen::Vector3d& mean) const;
   std::vector<std::uint32_t> probes(const Tree_layout& layout, Coordinates rest) const;
   bool may_touch(std::uint32_t index, const Box& box) const;
@@ -76,7 +76,7 @@ class Region_anchors {
   std::vector<double> x_, y_, z_, radius_;  ///< parallel: anchors in this frame, radii with reach and stretch
   Box box_;
   std::vector<std::uint32_t> probes_;   ///< nodes whose anchors tell the stretch: regions, and the tips
-  std::vector<double> rest_distances_;  ///< parallel: of their anchors from the mean, at rest
+  std::vector<double> rest_distances_;  ///< parallel: of their anchors from the mean, at rest; 0: all at one point
 };
 
 /// Appends the pairs of regions of two objects that may touch. O(n m) for those that may touch the other's box.
