@@ -124,7 +124,7 @@ const Frame& Particle_detection::detect(const Collision_filter& filter) {
     throw;
   }
   for (auto& object : objects_)
-    if (object) object->particle_object.note_stretch();
+    if (object) object->particle_object.keep_stretch();
   return frame_.finish();
 }
 
@@ -169,16 +169,16 @@ void Particle_detection::prepare() {
 }
 
 /// Until all is done the objects count as not prepared: if it fails, the next frame begins anew. Where seams are kept,
-/// an object counts so only from when it has been divided: a strategy may refuse to divide it again.
+/// they stay prepared until they have been divided: a strategy may refuse to divide one again.
 void Particle_detection::build(std::span<Object* const> objects, Seams seams) {
   std::vector<Building> all = read(objects);
-  const auto begin_anew = [&] {
+  const auto count_as_unprepared = [&] {
     for (Object* object : objects) object->prepared = false;
   };
-  if (seams != Seams::keep) begin_anew();
+  if (seams != Seams::keep) count_as_unprepared();
   measure(all, seams);
   divide(all);
-  begin_anew();
+  count_as_unprepared();
   start(all);
   for (Object* object : objects) write_maps(*object);
   has_room_ = false;
@@ -263,11 +263,11 @@ void Particle_detection::measure_new_radii() {
   if (options_.particles > 0) return;
   for (auto& object : objects_)
     if (object && !object->prepared)
-      object->radius = object->named(
-          [&] { return radius_of(object->particle_object, object->particle_object.read_positions()); });
+      object->radius =
+          object->named([&] { return radius_of(object->particle_object, object->particle_object.read_positions()); });
 }
 
-/// Those of all objects with extent.
+/// The radii of all objects with extent, and the number of all objects.
 Radius_range Particle_detection::radii() const {
   std::vector<double> radii;
   std::size_t count = 0;

@@ -179,6 +179,7 @@ void Particle_object::load(State_reader& state, Built built) {
   tree_ = std::move(saved.tree);
   neighbours_ = std::move(neighbours);
   region_anchors_ = std::move(saved.regions);
+  last_stretch_ = 1;
   if (!built.regions)
     start_patches(saved.rings);
   else if (!built.meetings)

@@ -127,10 +127,10 @@ TEST(Hop_reach, of_a_target_that_is_alone_is_how_far_its_component_reaches) {
   // Four faces in a row, and one.
   const std::vector<Corners> faces{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}, {6, 7, 8}};
   const auto graph = vertex_graph(9, faces);
-  const std::vector<std::uint32_t> end{0}, each{0, 7}, near_and_alone{0, 1, 7};
+  const std::vector<std::uint32_t> end{0}, each{0, 7}, pair_and_alone{6, 8, 0};
   EXPECT_EQ(hop_reach(graph, end), 3U);
   EXPECT_EQ(hop_reach(graph, each), 3U);
-  EXPECT_EQ(hop_reach(graph, near_and_alone), 1U);
+  EXPECT_EQ(hop_reach(graph, pair_and_alone), 3U);
 }
 
 }  // namespace

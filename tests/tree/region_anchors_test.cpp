@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -309,18 +310,31 @@ TEST(Region_anchors, a_surface_that_was_stretched_in_the_last_frame_is_not_in_th
   EXPECT_LT(object.regions().box().sizes().maxCoeff(), 0.5 * before.sizes().maxCoeff());
 }
 
+/// The labels of a fan of faces: its rim in so many sectors. Its tip has the last label, so each face has its sector's.
+std::vector<Region_index> sectors(const Face_soup& fan, std::uint32_t count) {
+  const std::uint32_t rim = fan.vertex_count() - 1;
+  std::vector<Region_index> labels{count - 1};
+  for (std::uint32_t i = 0; i < rim; ++i) labels.push_back(count * i / rim);
+  return labels;
+}
+
 TEST(Region_anchors, that_are_one_vertex_notice_that_the_surface_grows) {
-  std::vector<Face_soup> objects{Face_soup(tetrahedron())};
-  for (const std::uint32_t faces : {5, 12, 40, 190}) objects.push_back(fan_of_faces(faces, {0.1, 0.2, 0.3}, 0.5));
-  for (const auto& soup : objects) {
+  const auto check = [](const Face_soup& soup, const std::vector<Region_index>& labels) {
     SCOPED_TRACE(soup.faces.size());
-    Anchored_object object(soup);
+    Anchored_object object(soup, labels);
     for (const double factor : {1.0, 1.1, 3.0})
       for (const double offset : {0.0, 1e6}) {
         object.move_to(placed(soup, factor, offset));
         EXPECT_NEAR(object.tree().stretch(), factor, 1e-8);
         expect_box_around(object);
       }
+  };
+  std::vector<Region_index> labels{0, 1, 2, 3};
+  do check(Face_soup(tetrahedron()), labels);
+  while (std::next_permutation(labels.begin(), labels.end()));
+  for (const std::uint32_t faces : {5U, 12U, 40U}) {
+    const auto fan = fan_of_faces(faces, {0.1, 0.2, 0.3}, 0.5);
+    for (const std::uint32_t count : {2U, 3U}) check(fan, sectors(fan, count));
   }
 }
 

@@ -118,8 +118,8 @@ class Particle_object {
   Region_index last_checked() const { return last_checked_; }
   /// The next call looks at the region after this one first.
   void check_after(Region_index region) { last_checked_ = region; }
-  /// A frame ends, for `seemed_larger`.
-  void note_stretch() { last_stretch_ = tree_.stretch(); }
+  /// Keeps for `seemed_larger` how far the surface is stretched in this frame. For frames that do not fail.
+  void keep_stretch() { last_stretch_ = tree_.stretch(); }
   /// Whether the anchors of the regions had spread by more than the growth limit in the last frame, if they were read
   /// in it. After `prepare_meetings`.
   bool seemed_larger(double growth) const;

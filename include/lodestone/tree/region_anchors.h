@@ -39,7 +39,7 @@ class Region_anchors {
   static Region_anchors load(State_reader& state, const Tree_layout& layout, std::size_t regions);
 
   /// Reads the anchors in the current frame of the tree, and tells it how far the surface is stretched: by how far
-  /// they have spread from their mean. O(regions).
+  /// they have spread from their mean, or, where all are at one point, by the vertices of some leaves. O(regions).
   /// @param reach      a region is taken to lie within so many times its radius of its anchor
   /// @throws Bad_mesh  a coordinate is not finite
   void read(Tree_on_demand& tree, double reach);

@@ -444,7 +444,7 @@ Json Guard::copy_animation(const Json_value& animation) const {
     if (path == "weights" && targets_of(node) == 0) continue;  // as exporters write them for meshes without targets
     check_channel(target, plain["samplers"][sampler]);
     if (!taken.emplace(node, path).second)
-      target.fail(fmt::format("another channel of the animation has the {} of node {} too", path, node));
+      target.fail(fmt::format("another channel of the animation has the same target, the {} of node {}", path, node));
     plain["channels"].push_back({{"sampler", sampler}, {"target", {{"node", node}, {"path", path}}}});
   }
   return plain;

@@ -290,8 +290,8 @@ TEST_F(Gltf_damage, two_channels_with_one_target_are_refused) {
   EXPECT_EQ(read_mesh(folder.write("a.gltf", sample.gltf())).mesh.number_of_faces(), 2U);
   sample.animate(0, "translation", times, sample.add_points({0, 0, 0, 0, 1, 0}));
   expect_error(sample.gltf(),
-               "/animations/0/channels/2/target: another channel of the animation has the translation "
-               "of node 0 too");
+               "/animations/0/channels/2/target: another channel of the animation has the same target, the "
+               "translation of node 0");
 }
 
 TEST_F(Gltf_damage, buffers_stay_in_the_folder) {
