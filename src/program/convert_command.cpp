@@ -13,12 +13,12 @@
 #include "io/files/small_text.h"
 #include "io/gltf/gltf_scene.h"
 #include "lodestone/io/files/numbered_files.h"
-#include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/motion/animation_edits.h"
 #include "lodestone/io/results/animation_output.h"
 #include "lodestone/io/scenes/given_objects.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
+#include "program/file_partition.h"
 #include "program/float_rounding.h"
 #include "program/frame_choice.h"
 #include "program/mesh_beside.h"
@@ -76,18 +76,6 @@ void check_input_is_kept(const Convert_command& command, const Animation& animat
           "{}: is a file of the input, which is never overwritten: give another name for OUT", file.string()));
 }
 
-/// The region of each file vertex, for the positions of one frame; region 0 for vertices that no face uses.
-std::vector<Region_index> regions_of(const Animation& animation, std::size_t frame, std::size_t count) {
-  std::vector<Point> points(animation.vertices);
-  animation.motion.pose(frame, points);
-  auto file = mesh_of(points, animation.faces, animation.kind);
-  const auto map = file.mesh.add_property_map<Surface_mesh::Vertex_index, Region_index>("v:region").first;
-  partition(file.mesh, count, map, make_strategy("lbg", {}), {});
-  std::vector<Region_index> regions(animation.vertices);
-  for (const auto v : file.mesh.vertices()) regions[file.file_vertex[v]] = map[v];
-  return regions;
-}
-
 bool is_point_cache(const fs::path& file) {
   const auto extension = lower_case(file.extension().string());
   return extension == ".pc2" || extension == ".mdd";
@@ -132,7 +120,11 @@ Animation_output_options output_options(const Animation& animation, const Conver
   const double rate = command.rate > 0 ? command.rate : own_rate;
   options.frames_per_second = rate / static_cast<double>(choice.step);
   options.start = choice.first == 0 ? start_at(animation.motion, rate) : 0;
-  if (command.regions > 0) options.regions = regions_of(animation, choice.first, command.regions);
+  if (command.regions > 0) {
+    auto surface = file_surface(animation, choice.first);
+    orient(surface);
+    options.regions = divide(surface, command.regions, make_strategy("lbg")).labels;
+  }
   return options;
 }
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
@@ -10,17 +9,14 @@
 #include <vector>
 
 #include "io/files/small_text.h"
-#include "io/gltf/gltf_scene.h"
 #include "lodestone/io/files/atomic_file.h"
-#include "lodestone/io/files/numbered_files.h"
 #include "lodestone/io/meshes/file_faces.h"
-#include "lodestone/io/meshes/mesh_file.h"
 #include "lodestone/io/results/coloured_ply.h"
 #include "lodestone/io/results/text_table.h"
 #include "lodestone/io/scenes/given_objects.h"
-#include "lodestone/partition/partition_measures.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
+#include "program/file_partition.h"
 #include "program/frame_log.h"
 #include "program/measures_json.h"
 #include "program/notes.h"
@@ -34,53 +30,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Divided {
-  Partition<Surface_mesh> partition;
-  std::vector<Region_index> labels = {};
-  std::vector<std::size_t> sizes = {};
-  Partition_measures measures = {};
-  double seconds = 0;
-};
-
-Divided divide(Surface_mesh& mesh, const Partition_command& command) {
-  const auto regions = mesh.add_property_map<Surface_mesh::Vertex_index, Region_index>("v:region").first;
-  const auto start = std::chrono::steady_clock::now();
-  Divided result{.partition =
-                     partition(mesh, command.regions, regions,
-                               make_strategy(command.strategy.name, command.strategy.settings), command.options)};
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  result.sizes.resize(result.partition.regions);
-  for (const auto v : mesh.vertices()) {
-    result.labels.push_back(regions[v]);
-    ++result.sizes[regions[v]];
-  }
-  result.measures = measure_partition(mesh, result.partition, regions);
-  return result;
-}
-
-/// Per vertex of the file: its region; null for a vertex that no face uses. Copies of a vertex that is not manifold can
-/// have several regions: the last one counts.
-Json labels_json(const Mesh_file& file, const Divided& divided) {
-  std::vector<Json> labels(file.file_vertices);
-  for (std::size_t v = 0; v < divided.labels.size(); ++v) labels[file.file_vertex[v]] = divided.labels[v];
-  return labels;
-}
-
-Json statistics(const Mesh_file& file, const Divided& divided, const Partition_command& command) {
+Json statistics(const Scene_object& object, const File_partition& divided, const Partition_command& command) {
   const auto& statistics = divided.partition.statistics;
-  Json particles = Json::array();
-  for (const auto v : divided.partition.particles) particles.push_back(file.file_vertex[v]);
   return {{"mesh", shown_name(command.mesh)},
           {"strategy", command.strategy.name},
           {"seed", command.strategy.settings.seed},
-          {"vertices", file.mesh.number_of_vertices()},
-          {"faces", count_file_faces(file.file_face).count},
-          {"triangles", file.mesh.number_of_faces()},
+          {"vertices", object.file_vertices},
+          {"faces", count_file_faces(object.file_face).count},
+          {"triangles", object.mesh.number_of_faces()},
           {"regions_wanted", command.regions},
           {"regions", divided.partition.regions},
           {"region_sizes", divided.sizes},
-          {"particles", std::move(particles)},
-          {"labels", labels_json(file, divided)},
+          {"particles", divided.partition.particles},
+          {"labels", divided.labels},
           {"iterations", statistics.iterations},
           {"distance_evaluations", statistics.distance_evaluations},
           {"parts_before_repair", statistics.repair.parts_before},
@@ -91,29 +53,36 @@ Json statistics(const Mesh_file& file, const Divided& divided, const Partition_c
 }
 
 /// The mesh as a page of one frame, with each particle at its start vertex.
-Page page_of(const Mesh_file& file, const Divided& divided, const Partition_command& command) {
-  const Mesh_numbering numbering(file.mesh);
+Page page_of(const Scene_object& object, const File_partition& divided, const Partition_command& command) {
+  const Mesh_numbering numbering(object.mesh);
   const auto corners = numbering.corners();
-  Json numbers = statistics(file, divided, command);
+  std::vector<Region_index> labels;                              // per vertex of the mesh
+  std::vector<std::uint32_t> mesh_vertex(object.file_vertices);  // the last of its copies
+  for (std::uint32_t v = 0; v < numbering.vertex_count(); ++v) {
+    labels.push_back(divided.labels[object.file_vertex[v]]);
+    mesh_vertex[object.file_vertex[v]] = v;
+  }
+  std::vector<std::uint32_t> starts;
+  for (const auto v : divided.partition.particles) starts.push_back(mesh_vertex[v]);
+  Json numbers = statistics(object, divided, command);
   numbers.erase("seconds");  // so that equal partitions give equal pages
   numbers.erase("labels");   // the page has them
   Page page({.kind = Page_kind::partition, .title = shown_name(command.mesh), .strategy = command.strategy.name});
   page.set_regions(
       page.add_object(command.mesh.stem().string(), numbering.vertex_count(), {corners.begin(), corners.end()}),
-      divided.labels);
-  const auto& starts = divided.partition.particles;
-  page.add_frame({.positions = {read_positions(numbering, file.mesh.points())},
-                  .particles = {{starts.begin(), starts.end()}},
+      labels);
+  page.add_frame({.positions = {read_positions(numbering, object.mesh.points())},
+                  .particles = {starts},
                   .numbers = json_text(numbers)});
   return page;
 }
 
-void print_table(const Mesh_file& file, const Divided& divided, const Partition_command& command) {
+void print_table(const Scene_object& object, const File_partition& divided, const Partition_command& command) {
   const auto& statistics = divided.partition.statistics;
   const auto [smallest, largest] = std::ranges::minmax(divided.sizes);
   Text_table table({printable(shown_name(command.mesh)), command.strategy.name});
-  table.add({"vertices", std::to_string(file.mesh.number_of_vertices())});
-  table.add({"faces", std::to_string(count_file_faces(file.file_face).count)});
+  table.add({"vertices", std::to_string(object.file_vertices)});
+  table.add({"faces", std::to_string(count_file_faces(object.file_face).count)});
   table.add({"regions", std::to_string(divided.partition.regions)});
   table.add({"smallest region (vertices)", std::to_string(smallest)});
   table.add({"largest region (vertices)", std::to_string(largest)});
@@ -146,27 +115,15 @@ void check_input_is_kept(const Partition_command& command, const std::vector<std
         throw Bad_argument(result->string() + ": is a file of the mesh that is read, which is never overwritten");
 }
 
-/// A mesh, a mesh or an object of a scene in its first frame, or a shape.
-Mesh_file read_input(const Partition_command& command) {
+/// An object of a scene, a shape, or what a file has, in its first frame.
+Scene_object read_input(const Partition_command& command) {
   auto object = named_object(command.mesh, command.reading);
-  std::error_code unknown;
-  const bool is_sequence = is_pattern(command.mesh) && !std::filesystem::is_regular_file(command.mesh, unknown);
   if (!object && lower_case(command.mesh.extension().string()) == ".json")
     object = object_of_scene(command.mesh, "", command.reading);
-  else if (!object && (is_sequence || mesh_and_cache(command.mesh) || is_gltf(command.mesh)))
-    object = read_object("", command.mesh, command.reading.limits);
-  if (!object) {
-    auto file = read_mesh(command.mesh, command.reading.limits);
-    check_input_is_kept(command, file.files);
-    return file;
-  }
+  if (!object) object = read_object("", command.mesh, command.reading.limits);
   check_input_is_kept(command, object->files);
   pose(*object, 0);
-  return {.mesh = std::move(object->mesh),
-          .file_vertex = std::move(object->file_vertex),
-          .file_vertices = object->file_vertices,
-          .file_face = std::move(object->file_face),
-          .ignored_extensions = std::move(object->ignored_extensions)};
+  return std::move(*object);
 }
 
 }  // namespace
@@ -178,26 +135,28 @@ int run(const Partition_command& command) {
   check_results_differ(command);
   std::optional<Page_file> page;
   if (!command.html.empty()) page.emplace(command.html, command.json);
-  Mesh_file file = read_input(command);
-  const Divided divided = divide(file.mesh, command);
+  const Scene_object object = read_input(command);
+  const File_surface surface = file_surface(animation_of(object, 1), 0);
+  const auto strategy = make_strategy(command.strategy.name, command.strategy.settings);
+  const auto divided = divide(surface, command.regions, strategy, command.options);
   check_interrupt();
   // Both on disk before the first appears: if one cannot be written, neither appears.
   std::optional<Atomic_file> json;
   if (!command.json.empty()) {
     json.emplace(command.json);
-    json->write(json_text(statistics(file, divided, command), 2));
+    json->write(json_text(statistics(object, divided, command), 2));
     json->finish();
   }
-  if (page) page->finish(page_of(file, divided, command));
-  if (!command.out.empty()) write_coloured_ply(command.out, file.mesh, divided.labels);
+  if (page) page->finish(page_of(object, divided, command));
+  if (!command.out.empty()) write_coloured_ply(command.out, surface.coordinates, surface.faces, divided.labels);
   if (json) json->commit();
   if (page) page->commit();
   if (!command.quiet) {
     const auto name = shown_name(command.mesh);
-    note(ignored_extensions_note(name, file.ignored_extensions));
-    note(cut_faces_note(name, file.file_face));
+    note(ignored_extensions_note(name, object.ignored_extensions));
+    note(cut_faces_note(name, object.file_face));
   }
-  if (!command.quiet) print_table(file, divided, command);
+  if (!command.quiet) print_table(object, divided, command);
   if (!command.quiet && page) fmt::print("\n{}\n", page->summary());
   return exit_code::success;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lodestone/io/meshes/mesh_file.h"
+#include "lodestone/io/motion/animation.h"
 #include "lodestone/io/results/coloured_ply.h"
 #include "lodestone/io/shapes/shapes.h"
 #include "program/run_program.h"
@@ -22,6 +23,17 @@ namespace lodestone::test {
 namespace {
 
 using Json = nlohmann::json;
+
+/// Of a mesh written as PLY with colours: per vertex its region.
+std::vector<int> regions_in(const std::filesystem::path& ply, std::size_t vertices) {
+  const auto bytes = read_bytes(ply);
+  constexpr std::size_t vertex_bytes = 3 * 8 + 3 + 4, region_at = 3 * 8 + 3;
+  const auto start = bytes.find("end_header\n") + 11;
+  std::vector<int> regions;
+  for (std::size_t v = 0; v < vertices; ++v)
+    regions.push_back(static_cast<unsigned char>(bytes.at(start + v * vertex_bytes + region_at)));
+  return regions;
+}
 
 class Partition_program : public testing::Test {
  protected:
@@ -138,12 +150,8 @@ TEST_F(Partition_program, divides_a_sphere_into_the_requested_number_of_regions)
 TEST_F(Partition_program, the_regions_of_the_coloured_mesh_are_those_of_the_statistics) {
   expect_success(divide({"--regions", "9"}));
   const auto sizes = read_json(json)["region_sizes"].get<std::vector<int>>();
-  const auto bytes = read_bytes(ply);
-  constexpr std::size_t vertex_bytes = 3 * 8 + 3 + 4, region_at = 3 * 8 + 3;
-  const auto start = bytes.find("end_header\n") + 11;
   std::vector<int> counted(sizes.size());
-  for (std::size_t v = 0; v < vertices; ++v)
-    ++counted.at(static_cast<unsigned char>(bytes.at(start + v * vertex_bytes + region_at)));
+  for (const int region : regions_in(ply, vertices)) ++counted.at(region);
   EXPECT_EQ(counted, sizes);
 }
 
@@ -152,6 +160,60 @@ TEST_F(Partition_program, particles_have_their_vertex_indices_in_the_file) {
   const auto file = folder.write("unused.off", "OFF\n4 1 0\n9 9 9\n0 0 0\n1 0 0\n0 1 0\n3 1 2 3\n");
   expect_success(run_program({"partition", file.string(), "--regions", "3", "--json", json.string()}));
   EXPECT_EQ(read_json(json)["particles"].get<std::set<int>>(), (std::set<int>{1, 2, 3}));
+}
+
+TEST_F(Partition_program, labels_sizes_particles_and_coloured_mesh_agree_where_an_edge_has_three_faces) {
+  // Vertex 0 has no face. The faces meet at the edge from 1 to 2, and the second is turned.
+  const auto file =
+      folder.write("fin.off", "OFF\n6 3 0\n7 7 7\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 1 2 3\n3 1 2 4\n3 1 2 5\n");
+  expect_success(
+      run_program({"partition", file.string(), "--regions", "3", "--json", json.string(), "--out", ply.string()}));
+  const Json statistics = read_json(json);
+  EXPECT_EQ(statistics["vertices"], 6);
+  EXPECT_EQ(statistics["faces"], 3);
+  ASSERT_EQ(statistics["regions"], 3);
+  const auto labels = statistics["labels"].get<std::vector<int>>();
+  ASSERT_EQ(labels.size(), 6U);
+  EXPECT_EQ(labels[0], 0);
+  std::vector<int> sizes(3);
+  for (std::size_t v = 1; v < 6; ++v) ++sizes.at(labels[v]);
+  EXPECT_EQ(statistics["region_sizes"], sizes);
+  const auto particles = statistics["particles"].get<std::vector<int>>();
+  for (int region = 0; region < 3; ++region) EXPECT_EQ(labels.at(particles.at(region)), region);
+  const auto before = read_animation(file), after = read_animation(ply);
+  EXPECT_EQ(regions_in(ply, 6), labels);
+  EXPECT_EQ(after.vertices, 6U);
+  std::vector<Point> points(6), points_after(6);
+  before.motion.pose(0, points), after.motion.pose(0, points_after);
+  EXPECT_EQ(points_after, points);
+  const auto corners = [](const Animation& surface) {
+    std::vector<std::set<std::uint32_t>> all;
+    for (const auto& face : surface.faces) all.emplace_back(face.begin(), face.end());
+    return all;
+  };
+  EXPECT_EQ(corners(after), corners(before));
+}
+
+TEST_F(Partition_program, vertices_along_the_seam_of_a_texture_have_the_region_of_those_that_they_double) {
+  auto sample = square_gltf();
+  // Vertices 4 and 5 double 1 and 0, and are named by the face of a second primitive.
+  const auto doubles = sample.add_points({1, 0, 0, 0, 0, 0, 0, -1, 0});
+  sample.json["meshes"][0]["primitives"].push_back(
+      {{"attributes", {{"POSITION", doubles}}}, {"indices", sample.add_indices({0, 1, 2})}});
+  const auto file = folder.write("seam.glb", sample.glb());
+  const auto scene = folder.write("one.json", R"({"objects": [{"name": "square", "mesh": "seam.glb"}]})");
+  for (const auto& input : {file, scene}) {
+    SCOPED_TRACE(input);
+    expect_success(run_program({"partition", input.string(), "--regions", "3", "--json", json.string()}));
+    const Json statistics = read_json(json);
+    const auto labels = statistics["labels"].get<std::vector<int>>();
+    ASSERT_EQ(labels.size(), 7U);
+    EXPECT_EQ(labels[4], labels[1]);
+    EXPECT_EQ(labels[5], labels[0]);
+    EXPECT_NE(labels[0] + labels[1], 0);
+    const auto sizes = statistics["region_sizes"].get<std::vector<int>>();
+    EXPECT_EQ(std::accumulate(sizes.begin(), sizes.end(), 0), 5);
+  }
 }
 
 TEST_F(Partition_program, gives_each_vertex_a_region_when_more_are_requested) {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "lodestone/mesh/concepts.h"
+#include "lodestone/mesh/coordinates.h"
+#include "lodestone/mesh/mesh_numbering.h"
 
 namespace lodestone {
 
@@ -14,5 +17,11 @@ namespace lodestone {
 /// @throws Bad_output
 void write_coloured_ply(const std::filesystem::path& file, const Surface_mesh& mesh,
                         const std::vector<Region_index>& regions);
+/// The same of arrays.
+/// @param coordinates  3 V
+/// @param faces        F
+/// @param regions      V
+void write_coloured_ply(const std::filesystem::path& file, Coordinates coordinates, std::span<const Corners> faces,
+                        std::span<const Region_index> regions);
 
 }  // namespace lodestone
