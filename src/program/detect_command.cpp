@@ -20,6 +20,7 @@
 #include "program/detect_run.h"
 #include "program/detect_shards.h"
 #include "program/exit_codes.h"
+#include "program/folder_lock.h"
 #include "program/frame_log.h"
 #include "program/notes.h"
 #include "program/progress.h"
@@ -57,6 +58,8 @@ void write_results(Detect_run& scene_run, std::optional<Atomic_file>& frames, co
   if (scene_run.page() != nullptr) scene_run.page()->finish();
   if (scene_run.paraview() != nullptr) scene_run.paraview()->finish();
   check_interrupt();  // a large page takes a while
+  std::optional<Folder_lock> lock;
+  if (frames) lock.emplace(command.out);
   if (frames) Shard_folder::note_replaced(command.out);
   if (frames) frames->commit();
   if (summary) summary->commit();

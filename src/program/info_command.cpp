@@ -273,7 +273,9 @@ void print(const Object_report& report, const std::string& kind, std::size_t fra
   add("vertices", report.vertices);
   const auto finish = [&] {
     table.add({frames > 1 ? "box of the first frame" : "box", box_text(report.box)});
-    if (frames > 1) table.add({"box of all frames", box_text(report.box_of_all_frames)});
+    const bool goes_on = report.frames > frames;  // than the scene
+    const auto all = goes_on ? fmt::format("box of the first {} frames", frames) : "box of all frames";
+    if (frames > 1) table.add({all, box_text(report.box_of_all_frames)});
     fmt::print("{}", table.text());
   };
   if (!report.surface) return finish();

@@ -264,6 +264,13 @@ TEST_F(Info, gives_the_box_of_all_frames) {
       {"frame": 2, "at": [10, 0, 0]}]}}]}}]})")});
   EXPECT_EQ(scene["objects"][0]["box"][1][0], 1);
   EXPECT_EQ(scene["objects"][0]["box_of_all_frames"][1][0], 11);
+  for (int frame = 3; frame < 6; ++frame)
+    write("f" + std::to_string(frame) + ".off", read_bytes(folder.path() / "f1.off"));
+  const auto cut = write("cut.json", R"({"frames": 2, "objects": [{"name": "five", "mesh": "f1.off",
+    "motion": {"sequence": "f#.off"}}]})");
+  const auto five = run_program({"info", cut}).out;
+  for (const std::string part : {"| frames                          | 5", "box of the first 2 frames"})
+    EXPECT_NE(five.find(part), std::string::npos) << part << "\n" << five;
 }
 
 TEST_F(Info, of_an_unreadable_file_is_an_error) {

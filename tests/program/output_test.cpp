@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -180,6 +185,48 @@ TEST_F(Program_output, a_signal_ends_the_run_and_leaves_no_partial_file) {
       else
         EXPECT_FALSE(exists(out)) << "the folder was made by the run";
     }
+}
+
+/// What a run holds while its results take their names.
+class Held_lock {
+ public:
+  explicit Held_lock(const std::filesystem::path& folder) : descriptor_(::open(folder.c_str(), O_RDONLY | O_CLOEXEC)) {
+    EXPECT_EQ(::flock(descriptor_, LOCK_EX | LOCK_NB), 0) << "somebody holds it";
+  }
+  Held_lock(const Held_lock&) = delete;
+  Held_lock& operator=(const Held_lock&) = delete;
+  ~Held_lock() { ::close(descriptor_); }
+
+ private:
+  int descriptor_;
+};
+
+TEST_F(Program_output, files_of_two_runs_into_one_folder_are_not_mixed) {
+  leave_old_results();
+  const std::vector<std::string> command{"detect", scene(3), "--out", out.string(), "--quiet"};
+  const auto wait_until_written = [&] {  // two files of before, and two that wait for their names
+    for (int i = 0; i < 2000 && content_of(out).size() < 4; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  };
+  std::optional<Held_lock> other(std::in_place, out);
+  {
+    Running_program program(command);
+    wait_until_written();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_EQ(read_bytes(out / "frames.jsonl"), "old frames\n");
+    EXPECT_EQ(read_bytes(out / "summary.json"), "old summary\n");
+    other.reset();
+    EXPECT_EQ(program.wait().exit_code, 0);
+  }
+  EXPECT_EQ(read_json_lines(out / "frames.jsonl").size(), 3U);
+  EXPECT_EQ(read_json(out / "summary.json")["frames"], 3);
+  leave_old_results();
+  other.emplace(out);
+  Running_program program(command);
+  wait_until_written();
+  program.send(SIGTERM);
+  expect_error(program.wait(), 130, "interrupted");
+  expect_old_results();
 }
 
 TEST_F(Program_output, a_second_signal_ends_even_a_frame_that_takes_very_long) {

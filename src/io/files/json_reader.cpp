@@ -17,6 +17,10 @@ std::string as_json(std::string_view text) {
   return shown.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
+std::string valid_utf8(std::string_view text) {
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+}
+
 Json_value::Json_value(const Json& value, std::string file, std::string place)
     : value_(&value), file_(std::move(file)), place_(std::move(place)) {}
 

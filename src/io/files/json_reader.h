@@ -30,6 +30,9 @@ Json parse_json_text(std::string_view text, const std::string& name);
 /// `text` as a JSON string: in double quotes, always on one line, truncated to 80 characters.
 std::string as_json(std::string_view text);
 
+/// `text` with U+FFFD for whatever is no UTF-8, so that it is written to JSON as it is.
+std::string valid_utf8(std::string_view text);
+
 /// A value of a document, with its JSON pointer. The document must outlive it.
 class Json_value {
  public:

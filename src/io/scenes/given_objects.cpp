@@ -29,11 +29,12 @@ namespace {
 constexpr std::string_view shape_prefix = "shape:", scene_mark = ".json#";
 
 /// The file's name without folder, extension and the number of a pattern: `seq/cloth_###.obj` is `cloth`. Names are
-/// shown in tables and messages, so control characters are replaced.
+/// shown in tables and messages, so control characters are replaced. They are written to JSON, so other names that are
+/// no UTF-8 are not to become equal there.
 std::string name_of(const std::filesystem::path& input) {
   const auto parts = mesh_and_cache(input);
   const auto file = parts ? parts->mesh : input;
-  std::string name = printable(file.stem().string());
+  std::string name = detail::valid_utf8(printable(file.stem().string()));
   if (!is_pattern(file)) return name;
   std::erase_if(name, [](char c) { return c == '*' || c == '#'; });
   const auto last = name.find_last_not_of("_-. ");

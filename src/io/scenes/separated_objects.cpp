@@ -14,6 +14,7 @@
 #include <string>
 #include <utility>
 
+#include "io/files/json_reader.h"
 #include "io/files/small_text.h"
 #include "io/files/unique_names.h"
 #include "io/scenes/object_of.h"
@@ -76,7 +77,7 @@ Separation by_part(const Scene_object& object, std::size_t max_objects) {
     const auto after = std::ranges::upper_bound(object.parts, face, {}, &File_part::first_face);
     const std::string& name = after == object.parts.begin() ? std::string() : std::prev(after)->name;
     const auto [label, is_new] = labels.try_emplace(name, static_cast<std::uint32_t>(labels.size()));
-    if (is_new) by.names.push_back(name.empty() ? object.name : printable(name));
+    if (is_new) by.names.push_back(name.empty() ? object.name : detail::valid_utf8(printable(name)));
     by.label.push_back(label->second);
   }
   check_count(by.names.size(), max_objects, "parts", object.name);

@@ -66,6 +66,14 @@ TEST_F(Given_objects, are_named_after_their_files) {
   EXPECT_EQ(names, (std::vector<std::string>{"s", "a", "a_2", "sequence"}));
 }
 
+TEST_F(Given_objects, names_that_are_no_utf8_differ_in_json_too) {
+  const std::vector<std::filesystem::path> inputs{folder.write("a\xff.off", tetrahedron_off()),
+                                                  folder.write("a\xfe.off", tetrahedron_off())};
+  const auto scene = scene_of(inputs);
+  EXPECT_EQ(scene.objects[0].name, "a\uFFFD");
+  EXPECT_EQ(scene.objects[1].name, "a\uFFFD_2");
+}
+
 /// A tetrahedron that moves along x by 10 in a second, with a key per frame.
 void write_mover(const std::filesystem::path& file, std::size_t frames_per_second) {
   Animation animation{.kind = "test", .vertices = 4, .faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};

@@ -207,6 +207,9 @@ TEST_F(Separated_objects, groups_are_parts_if_there_are_no_objects) {
   EXPECT_EQ(names(separated_objects(read_object("x", file), Separate::parts)), (std::vector<std::string>{"a b", "c"}));
   const auto plain = folder.write("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(names(separated_objects(read_object("x", plain), Separate::parts)), std::vector<std::string>{"x"});
+  const auto latin = folder.write("latin.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ng f\xfc\nf 1 2 3\ng f\xfd\nf 1 3 2\n");
+  EXPECT_EQ(names(separated_objects(read_object("x", latin), Separate::parts)),
+            (std::vector<std::string>{"f\uFFFD", "f\uFFFD"}));
 }
 
 TEST_F(Separated_objects, parts_of_a_sequence_are_those_of_its_first_file) {
