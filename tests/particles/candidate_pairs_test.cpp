@@ -78,6 +78,28 @@ TEST(Candidate_pairs, equal_those_of_a_double_loop) {
   EXPECT_EQ(candidates(a, b, 0.2), regions);
 }
 
+TEST(Candidate_pairs, are_the_same_with_several_workers) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> coordinate;
+  Points a, b;
+  for (int i = 0; i < 1300; ++i) a.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+  for (int i = 0; i < 150; ++i) b.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+  Workers five(5);
+  for (const auto choice : {Candidate_choice::all, Candidate_choice::closest})
+    for (const bool swapped : {false, true}) {
+      const auto &first = swapped ? b : a, &second = swapped ? a : b;
+      std::vector<Candidate_pair> alone, shared;
+      candidate_pairs(first, second, 0.1, choice, alone);
+      candidate_pairs(first, second, 0.1, choice, shared, five);
+      EXPECT_GE(alone.size(), choice == Candidate_choice::all ? 100U : 1U);
+      ASSERT_EQ(shared.size(), alone.size());
+      for (std::size_t i = 0; i < alone.size(); ++i) {
+        EXPECT_EQ(shared[i].squared_distance, alone[i].squared_distance);
+        EXPECT_EQ(std::pair(shared[i].a, shared[i].b), std::pair(alone[i].a, alone[i].b));
+      }
+    }
+}
+
 TEST(Candidate_pairs, without_particles_are_none) {
   EXPECT_TRUE(candidates({}, {{0, 0, 0}}, 1).empty());
   EXPECT_TRUE(candidates({}, {}, 1, Candidate_choice::closest).empty());

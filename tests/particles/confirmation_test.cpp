@@ -132,6 +132,30 @@ TEST(Confirmation, of_patches_far_apart_needs_no_exact_test) {
   EXPECT_EQ(confirmation.exact_tests(), 0U);
 }
 
+TEST(Confirmation, finds_and_counts_the_same_with_several_workers) {
+  const Numbered_mesh mesh(potato(14));
+  std::vector<std::uint32_t> all(mesh.faces.size());
+  for (std::uint32_t face = 0; face < all.size(); ++face) all[face] = face;
+  Workers five(5);
+  Confirmation alone, shared;  // each keeps its memory from one call to the next
+  std::size_t found_any = 0, found_none = 0;
+  for (const double offset : {0.02, 1.9, 5.0, 0.4, 1.2}) {
+    Positions moved = mesh.positions;
+    moved.col(0).array() += offset;
+    const Placed_patch a(mesh.positions, mesh.faces, all), b(moved, mesh.faces, all);
+    for (const auto query : {Contact_query::all, Contact_query::first, Contact_query::yes_no}) {
+      std::vector<Face_pair> expected{{7, 7}}, found{{7, 7}};
+      const bool any = alone.confirm(a.posed, b.posed, query, expected);
+      EXPECT_EQ(shared.confirm(a.posed, b.posed, query, found, five), any);
+      EXPECT_EQ(found, expected);
+      EXPECT_EQ(shared.exact_tests(), alone.exact_tests());
+      (any ? found_any : found_none) += 1;
+    }
+  }
+  EXPECT_GE(found_any, 6U);
+  EXPECT_GE(found_none, 3U);
+}
+
 TEST(Confirmation, counts_exact_tests_until_reset) {
   const Numbered_mesh mesh(potato(4));
   std::vector<std::uint32_t> all(mesh.faces.size());

@@ -39,6 +39,8 @@ TEST(Meeting, ends_where_no_step_of_either_particle_leads_nearer) {
       EXPECT_GE(ended.vertices_read, 2 + ended.hops);
       const auto again = meet(first->view(), second->view(), ended.at, any_hops);
       EXPECT_EQ(again.hops, 0U);
+      EXPECT_EQ(again.vertices_read,
+                2 + out_degree(ended.at.a, first->graph()) + out_degree(ended.at.b, second->graph()));
       EXPECT_EQ(again.at.a, ended.at.a);
       EXPECT_EQ(again.at.b, ended.at.b);
     }

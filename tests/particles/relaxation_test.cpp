@@ -138,6 +138,24 @@ TEST(Relax, sizes_a_scratch_that_has_no_room_or_that_of_others) {
   }
 }
 
+TEST(Relax, counts_from_the_start_of_each_call) {
+  Relaxation_scratch scratch;
+  const std::vector<std::uint32_t> near{1};
+  std::vector<std::size_t> read, iterations;
+  for (int call = 0; call < 3; ++call) {
+    Grid_walker walker(5, 3, 5);
+    Post post({10, 1, 0});
+    const std::vector<Walking_object<Reader>> objects{
+        {.particles = &walker.particles, .steps = &walker.steps, .reader = &walker.reader, .opponents = near},
+        {.particles = &post.particles, .steps = &post.steps, .reader = &post.reader, .opponents = {}}};
+    read.push_back(relax(std::span<const Walking_object<Reader>>(objects), scratch).vertices_read);
+    iterations.push_back(scratch.iterations[0]);
+  }
+  EXPECT_GT(read[0], 0U);
+  EXPECT_EQ(read, std::vector<std::size_t>(3, read[0]));
+  EXPECT_EQ(iterations, std::vector<std::size_t>(3, 5));
+}
+
 TEST(Relax, goes_the_same_way_step_by_step) {
   Grid_walker at_once(8, 6, 0), in_steps(8, 6, 0, 1);
   Post post({9, 4.4, 0}, 1000), step_post({9, 4.4, 0}, 1000);

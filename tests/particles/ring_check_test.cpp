@@ -77,6 +77,17 @@ TEST(Ring_check, rings_go_on_across_closed_seams_and_end_at_open_borders) {
   EXPECT_GT(none, 20U);
 }
 
+TEST(Ring_check, reads_three_positions_of_each_face_of_its_rings) {
+  const Owned_surface a(sphere(6)), b(moved(sphere(6), 9, 0, 0));
+  for (const std::size_t rings : {0, 1, 2, 3}) {
+    Ring_check check;
+    Face_pair found;
+    EXPECT_FALSE(check.check(a.view(), b.view(), {0, 40}, rings, found));
+    EXPECT_EQ(check.vertices_read(), 3 * (faces_of_rings(a, 0, rings).size() + faces_of_rings(b, 40, rings).size()));
+    EXPECT_EQ(check.exact_tests(), 0U);
+  }
+}
+
 TEST(Ring_check, counts_what_it_tests_and_reads_until_told_to_begin_anew) {
   const Owned_surface a(sphere(6)), b(moved(sphere(6), 0.1, 0, 0));
   Ring_check check;

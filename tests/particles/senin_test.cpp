@@ -86,6 +86,10 @@ TEST(Default_rings, contain_as_many_vertices_as_a_region) {
   EXPECT_EQ(default_rings(1900, 100), 2U);
   EXPECT_EQ(default_rings(3700, 100), 3U);
   EXPECT_EQ(default_rings(610, 10), 4U);
+  EXPECT_EQ(default_rings(620, 10), 5U);
+  EXPECT_EQ(default_rings(800, 100), 2U);
+  for (const std::size_t vertices : {0, 1, 12, 13, 84}) EXPECT_EQ(default_rings(vertices, 12), 1U);
+  EXPECT_EQ(default_rings(0, 0), 1U);
 }
 
 TEST(Vertex_faces, are_the_faces_with_that_corner) {
