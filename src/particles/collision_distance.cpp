@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/particles/collision_distance.h"
 
+#include <cstdint>
+#include <vector>
+
 namespace lodestone {
 
 namespace {
@@ -17,6 +20,14 @@ double mean_edge_length(const Vertex_graph& graph, const Positions& positions) {
   return edges == 0 ? 0 : sum / static_cast<double>(edges);
 }
 
+/// The positions of the vertices with edges.
+Positions positions_of_surface(const Vertex_graph& graph, const Positions& positions) {
+  std::vector<Eigen::Index> on_surface;
+  for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
+    if (out_degree(v, graph) > 0) on_surface.push_back(v);
+  return positions(on_surface, Eigen::all);
+}
+
 double mean_vertex_distance(const Positions& positions) {
   double sum = 0;
   for (Eigen::Index v = 1; v < positions.rows(); ++v)
@@ -29,7 +40,7 @@ double mean_vertex_distance(const Positions& positions) {
 
 double collision_distance(const Vertex_graph& graph, const Positions& positions, Distance_measure measure) {
   return measure == Distance_measure::adjacent_vertices ? mean_edge_length(graph, positions)
-                                                        : mean_vertex_distance(positions);
+                                                        : mean_vertex_distance(positions_of_surface(graph, positions));
 }
 
 }  // namespace lodestone

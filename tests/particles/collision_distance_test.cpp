@@ -28,11 +28,13 @@ TEST(Collision_distance, of_all_vertices_is_the_mean_over_all_pairs) {
   EXPECT_DOUBLE_EQ(distance_on(pair, Distance_measure::all_vertices), (3 + 4 + 5) / 3.0);
 }
 
-TEST(Collision_distance, of_adjacent_vertices_skips_isolated_ones) {
-  auto mesh = grid(2, 2);
-  const double before = distance_on(mesh);
-  mesh.add_vertex({1000, 0, 0});
-  EXPECT_EQ(distance_on(mesh), before);
+TEST(Collision_distance, skips_isolated_vertices) {
+  for (const auto measure : {Distance_measure::adjacent_vertices, Distance_measure::all_vertices}) {
+    auto mesh = grid(2, 2);
+    const double before = distance_on(mesh, measure);
+    mesh.add_vertex({1000, 0, 0});
+    EXPECT_EQ(distance_on(mesh, measure), before);
+  }
 }
 
 TEST(Collision_distance, of_all_vertices_is_about_the_size_of_the_object) {

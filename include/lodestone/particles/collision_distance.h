@@ -15,7 +15,7 @@ enum class Distance_measure {
 /// than this make their regions a candidate. Distances are Euclidean, eq. (14). O(E) for adjacent vertices, O(V^2) for
 /// all.
 ///
-/// Eq. (13) read literally is `all_vertices`.
+/// Eq. (13) read literally is `all_vertices`. Vertices without edges are no part of the surface and do not count.
 /// @return in the units of the positions
 double collision_distance(const Vertex_graph& graph, const Positions& positions,
                           Distance_measure measure = Distance_measure::adjacent_vertices);

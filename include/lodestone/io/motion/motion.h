@@ -62,7 +62,7 @@ Motion read_point_cache(const std::filesystem::path& file, std::size_t vertices)
 
 /// The same from a point cache in the MDD format (LightWave, Blender, Houdini). The format has no signature, so the
 /// file's size must be exactly what its header implies. The times of the first and the last frame give the rate and the
-/// start; the others are ignored.
+/// start, if the last is later; the others are ignored.
 Motion read_mdd_cache(const std::filesystem::path& file, std::size_t vertices);
 
 /// Motion from the frames of a game model, MD2 or MD3. The file is kept in memory.
