@@ -57,7 +57,8 @@ namespace lodestone {
 /// A call that runs out of memory throws std::bad_alloc, and nothing leaks. Repeat it, or go on without it: the next
 /// `detect` is right. A `rebuild` may or may not have taken effect.
 ///
-/// As the type of a member, write `Detector<>`.
+/// A detector that has been moved from may only be assigned to or destroyed. As the type of a member, write
+/// `Detector<>`.
 ///
 /// @tparam Strategy  how surfaces are divided: a Partition_strategy for the type of each mesh
 /// @tparam Volume    of the trees in mode `exact`, see Bounding_volume
@@ -103,7 +104,8 @@ class Detector {
     return add(mesh, CGAL::get_const_property_map(CGAL::vertex_point, mesh), options);
   }
   /// Adds an object whose positions are read through `points`, a vertex point map, which must outlive the object. One
-  /// mesh may be added several times with other points; its property maps are not written.
+  /// mesh may be added several times with other points; its property maps are not written. To have it with its own
+  /// points too, add it without `points` first: afterwards that is refused.
   template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
   Object_id add(const Mesh& mesh, Points points, const Object_options& options = {}) {
     return add_watched(

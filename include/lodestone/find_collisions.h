@@ -52,7 +52,8 @@ Collisions collisions_of(Frame frame);
 ///                    either, a and b may be the same mesh
 /// @return contacts as `options.contacts` asks: none, one, or all, up to `most_contacts`
 /// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite, a Surface_mesh with
-///                       removed elements
+///                       removed elements. Where the boxes around two meshes are apart, faces of two edges may go
+///                       unnoticed beside larger ones: see `frame_at_once`
 /// @throws Bad_argument  an option out of range, one that the mode does not take, or one mesh given twice without such
 ///                       a map
 template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b, class Parameters_a = CGAL::parameters::Default_named_parameters,
@@ -63,8 +64,9 @@ Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_opti
   need_same_containers();
   if (auto frame = frame_at_once(a, vertex_points(a, np_a), b, vertex_points(b, np_b), options))
     return collisions_of(std::move(*frame));
-  using Default = CGAL::parameters::Default_named_parameters;
-  constexpr bool own_points = std::same_as<Parameters_a, Default> && std::same_as<Parameters_b, Default>;
+  using CGAL::internal_np::vertex_point_t, CGAL::parameters::is_default_parameter;
+  constexpr bool own_points = is_default_parameter<Parameters_a, vertex_point_t>::value &&
+                              is_default_parameter<Parameters_b, vertex_point_t>::value;
   Detector detector(options);
   const auto add = [&](const auto& mesh, const auto& np, const char* name) {
     if constexpr (own_points)

@@ -87,9 +87,12 @@ void Bounded_surface::plan_frame() {
 void Bounded_surface::bound(std::uint32_t node) {
   if (bounds_.empty()) return pose_all();
   if (takes_long() || (is_paused() && node != 0)) return give_up();
-  Aabb box = bounds_.front()->box(node);
-  for (std::size_t i = 1; i < bounds_.size(); ++i) box = common_box(box, bounds_[i]->box(node));
-  if (is_empty(box))  // though vertices must be in it
+  read_.clear();
+  Aabb box = bounds_.front()->box(node, read_);
+  for (std::size_t i = 1; i < bounds_.size(); ++i) box = common_box(box, bounds_[i]->box(node, read_));
+  if (node != 0 && boxed_in_[parents_[node]] == frame_) box = common_box(box, boxes_[parents_[node]]);
+  const auto lies_within = [&](const Eigen::Vector3d& position) { return contains(box, position); };
+  if (is_empty(box) || !std::ranges::all_of(read_, lies_within))  // though vertices must be in it
     ++violations_;
   else
     bounded_.push_back(node);  // first: a box that is in use is also one that is compared with what is read
@@ -139,6 +142,31 @@ void Bounded_surface::read(std::uint32_t leaf) {
   vertices_posed_ += vertices.size();
   ++leaves_posed_;
   fit_parents_of(node);
+}
+
+std::span<const Leaf_vertex> Bounded_surface::component_vertices() {
+  if (!component_vertices_.empty()) return component_vertices_;
+  std::vector<bool> wanted(positions_->vertex_count());
+  for (const auto vertex : tree_->component_vertices()) wanted[vertex] = true;
+  std::vector<Leaf_vertex> found;
+  for (std::uint32_t leaf = 0; leaf < layout().leaf_count(); ++leaf)
+    for (const auto vertex : layout().vertices(leaf)) {
+      if (wanted[vertex]) found.push_back({.leaf = leaf, .vertex = vertex});
+      wanted[vertex] = false;
+    }
+  component_vertices_ = std::move(found);
+  return component_vertices_;
+}
+
+Eigen::Vector3d Bounded_surface::position(const Leaf_vertex& at) {
+  const Aabb promised = box(layout().leaf_node(at.leaf));
+  if (is_posed(at.leaf))
+    return Eigen::Map<const Eigen::Vector3d>(tree_->coordinates().data() + 3 * std::size_t{at.vertex});
+  const Eigen::Vector3d position = (*positions_)(at.vertex);
+  if (!position.allFinite()) fail_not_finite(at.vertex, title_);
+  if (!contains(promised, position)) ++violations_;
+  ++vertices_posed_;
+  return position;
 }
 
 /// As far up as all leaves have been posed: boxes from bounds are larger.

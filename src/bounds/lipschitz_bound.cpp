@@ -12,11 +12,10 @@ Lipschitz_bound::Lipschitz_bound(const Lipschitz_promise& promise, const Bounded
   anchors_ = find_anchors(object.layout, object.rest);
 }
 
-Aabb Lipschitz_bound::box(std::uint32_t node) const {
+Aabb Lipschitz_bound::box_around_anchor(std::uint32_t node, const Eigen::Vector3d& anchor) const {
   constexpr double smallest = 1e-150, rounding = 1 + 1e-9;
-  const auto& [vertex, radius] = anchors_[node];
-  return box_around((*positions_)(vertex),
-                    promise_->constant() * (radius + smallest) + 2 * rounding * promise_->error());
+  return box_around(anchor,
+                    promise_->constant() * (anchors_[node].radius + smallest) + 2 * rounding * promise_->error());
 }
 
 void Lipschitz_promise::set_constant(double constant, double error) {

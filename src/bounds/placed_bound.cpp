@@ -32,6 +32,14 @@ Aabb placed_box(const Eigen::Matrix3d& linear, const Eigen::Vector3d& translatio
   return placed;
 }
 
+Aabb Placed_bound::box(std::uint32_t node, std::vector<Eigen::Vector3d>& read) const {
+  const std::size_t before = read.size();
+  const Aabb in_mesh = bound_->box(node, read);
+  if (*placement_)
+    for (auto& position : std::span(read).subspan(before)) position = (**placement_)(position);
+  return placed(in_mesh);
+}
+
 bool Placed_bound::note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) {
   if (*given_) return true;
   if (!*placement_) return bound_->note_read(leaf, fitted, coordinates);

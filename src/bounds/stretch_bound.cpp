@@ -32,9 +32,11 @@ Stretch_bound::Stretch_bound(const Stretch_promise& promise, const Bounded_objec
   const double longer = 1 + (2 * slack + 0x1p-51 * static_cast<double>(positions_->vertex_count()));
   begin_.resize(nodes);
   end_.resize(nodes);
+  has_own_.resize(nodes);
   Landmark_search search(*layout_, rest_);
   for (std::uint32_t node = 0; node < nodes; ++node) {
     const auto found = search.find(node);
+    has_own_[node] = !found.empty();
     if (!found.empty()) {
       begin_[node] = static_cast<std::uint32_t>(landmarks_.size());
       for (const auto& [vertex, radius] : found) landmarks_.push_back({.vertex = vertex, .radius = longer * radius});
@@ -50,9 +52,23 @@ Stretch_bound::Stretch_bound(const Stretch_promise& promise, const Bounded_objec
 }
 
 Aabb Stretch_bound::box(std::uint32_t node) const {
+  return box_around_landmarks(node, [](const Eigen::Vector3d&) {});
+}
+
+Aabb Stretch_bound::box(std::uint32_t node, std::vector<Eigen::Vector3d>& read) const {
+  return box_around_landmarks(node, [&](const Eigen::Vector3d& position) {
+    if (has_own_[node]) read.push_back(position);
+  });
+}
+
+/// @param note  called with each position that is read
+template <class Note>
+Aabb Stretch_bound::box_around_landmarks(std::uint32_t node, Note note) const {
   const double error = 2 * (1 + slack) * promise_->error();
   const auto around = [&](const Landmark& landmark) {
-    return box_around((*positions_)(landmark.vertex), promise_->stretch() * landmark.radius + error);
+    const Eigen::Vector3d position = (*positions_)(landmark.vertex);
+    note(position);
+    return box_around(position, promise_->stretch() * landmark.radius + error);
   };
   const auto all = landmarks(node);
   Aabb box = around(all.front());

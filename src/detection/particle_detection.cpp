@@ -29,8 +29,9 @@ void Particle_detection::add(const Watch_mesh& watch, const Object_options& opti
 void Particle_detection::update(Object_id id) {
   const Busy busy(busy_);
   Object& object = *objects_[id];
-  if (!object.prepared || options_.mode != Mode::particles) return;
+  if (options_.mode != Mode::particles) return;
   check_arithmetic();
+  if (!object.prepared) return;
   timed(since_last_frame_.seconds.repartition, [&] {
     const Region_index checked = object.particle_object.last_checked();
     if (!object.named([&] { return has_outgrown(object.particle_object); })) return;

@@ -101,12 +101,6 @@ Point_side find_side(Surface& surface, const Point& point) {
   return ask_until_settled([&] { return Vertical_ray(surface, point).run(); }, surface);
 }
 
-Point position_of(const Bounded_surface& surface, std::uint32_t vertex) {
-  const Eigen::Vector3d p = surface.positions()(vertex);
-  if (!p.allFinite()) fail_not_finite(vertex);
-  return {p.x(), p.y(), p.z()};
-}
-
 }  // namespace
 
 Point_side point_side(const Layout_view& surface, const Point& point) {
@@ -130,15 +124,16 @@ bool encloses(const Object_surface& outer, const Layout_view& outer_layout, cons
 }
 
 bool encloses(Bounded_surface& outer, Bounded_surface& inner) {
-  const auto inside = [&](std::uint32_t vertex) {
-    const Point point = position_of(inner, vertex);
+  const auto inside = [&](const Leaf_vertex& at) {
+    const Eigen::Vector3d p = inner.position(at);
+    const Point point(p.x(), p.y(), p.z());
     return Vertical_ray(outer, point).run() == Point_side::inside;
   };
   return ask_until_settled(
       [&] {
         // Boxes can be loose, so one within the other would prove nothing, and neither would the opposite.
         if (!near(outer.box(0), inner.box(0), 0) || !outer.tree().closed()) return false;
-        return std::ranges::all_of(inner.tree().component_vertices(), inside);
+        return std::ranges::all_of(inner.component_vertices(), inside);
       },
       outer, inner);
 }

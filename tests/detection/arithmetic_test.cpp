@@ -26,6 +26,9 @@ void expect_refused(Detector<>& built) {
     EXPECT_THROW(detector.save(0), Bad_argument) << name_of(mode);
   }
   EXPECT_THROW(built.update(), Bad_argument);
+  Detector<> not_built(Detector_options{.mode = Mode::particles});
+  not_built.add(std::as_const(a));
+  EXPECT_THROW(not_built.update(), Bad_argument);
   Detector<> detector;
   detector.add(a), detector.add(b);
   EXPECT_THROW(detector.closest(0, 1), Bad_argument);

@@ -133,6 +133,7 @@ TEST(Find_collisions, refuses_bad_input) {
   broken.point(Surface_mesh::Vertex_index(0)) = Point(std::numeric_limits<double>::infinity(), 0, 0);
   for (const auto mode : {Mode::exact, Mode::particles}) {
     EXPECT_THROW(find_collisions(mesh, mesh, {.mode = mode}), Bad_argument);
+    EXPECT_THROW(find_collisions(mesh, mesh, {.mode = mode}, CGAL::parameters::verbose(true)), Bad_argument);
     EXPECT_THROW(find_collisions(mesh, Surface_mesh(), {.mode = mode}), Bad_mesh);
     EXPECT_THROW(find_collisions(mesh, broken, {.mode = mode}), Bad_mesh);
   }

@@ -18,6 +18,7 @@ namespace lodestone {
 namespace {
 
 // Said by the constraint, not deep inside Boost.
+static_assert(!Triangle_mesh<int> && !Triangle_mesh<Surface_mesh*>);
 static_assert(Triangle_mesh<Surface_mesh> && !Triangle_mesh<Positions> && !Triangle_mesh<std::vector<Point>> &&
               !Triangle_mesh<std::array<Corners, 2>> && !Triangle_mesh<std::span<const double>>);
 

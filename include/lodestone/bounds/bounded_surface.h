@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -16,14 +17,25 @@
 
 namespace lodestone {
 
+/// A vertex of a surface, and a leaf that lists it.
+struct Leaf_vertex {
+  std::uint32_t leaf = 0;    ///< its index
+  std::uint32_t vertex = 0;  ///< its index in the mesh
+};
+
 /// A surface whose nodes are bounded without being read, and whose leaves are posed when a query needs their faces.
 /// Nothing is done before it is asked for. Nothing is done twice in a pose, except that leaves which were posed one by
 /// one are posed again with all. A node below which all leaves have been posed has the box fitted to them.
 ///
 /// A bound is a promise, and what is read is compared with it:
 /// - the vertices of a leaf that is posed, with the boxes of the leaf and of the whole;
+/// - a vertex that is read alone, with the box of its leaf;
+/// - positions of a node that one of several bounds has read, with the box that all of them give;
 /// - the leaves below a node, once all of them have been posed, with the node's box if that was in use;
 /// - all vertices, where all are posed, with all boxes in use.
+///
+/// A node's box lies in that of the node above it, if that was in use before: so whoever goes down from the root
+/// compares a leaf with the boxes of all nodes above it.
 ///
 /// If a vertex lies outside, or if bounds have no point in common, `is_broken()` says so, and a query that relied on
 /// boxes must `settle` the surface and ask again.
@@ -94,6 +106,11 @@ class Bounded_surface {
     if (posed_in_[leaf] != frame_) read(leaf);
     return boxes_[layout().leaf_node(leaf)];
   }
+  /// One vertex of each connected component, with a leaf. O(V) when it is called first.
+  std::span<const Leaf_vertex> component_vertices();
+  /// Where a vertex is: reads it, unless its leaf has been posed.
+  /// @throws Bad_mesh  a coordinate is not finite
+  Eigen::Vector3d position(const Leaf_vertex& at);
   /// Poses all vertices and fits all boxes. O(V).
   /// @throws Bad_mesh  a coordinate that a face uses is not finite
   void pose_all();
@@ -165,6 +182,8 @@ class Bounded_surface {
   bool much_was_near_ = false;              ///< all vertices were posed because much was asked for
   std::size_t pause_ = 0, pause_left_ = 0;  ///< frames in which leaves are not posed one by one: planned, still to come
   std::vector<std::uint32_t> bounded_;      ///< nodes whose boxes come from bounds, in this frame
+  std::vector<Eigen::Vector3d> read_;       ///< by bounds, of the node that is bounded
+  std::vector<Leaf_vertex> component_vertices_;  ///< empty: not asked for yet
   std::size_t violations_ = 0, violations_settled_ = 0, nodes_bounded_ = 0, leaves_posed_ = 0, vertices_posed_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -15,7 +16,7 @@ namespace lodestone {
 
 class Lipschitz_promise;
 
-/// Boxes from a Lipschitz_promise. Reads one position per node, its anchor. A model of Motion_bound.
+/// Boxes from a Lipschitz_promise. Reads one position per node, its anchor. A model of Reading_bound.
 ///
 /// With the anchor p of a node, and rho the distance at rest from there to the node's farthest vertex, the node lies
 /// within L rho + 2 e of p.
@@ -33,9 +34,17 @@ class Lipschitz_bound {
   /// Number of nodes of the tree.
   std::size_t node_count() const { return anchors_.size(); }
   /// The box of a node in the current pose: one position.
-  Aabb box(std::uint32_t node) const;
+  Aabb box(std::uint32_t node) const { return box_around_anchor(node, anchor(node)); }
+  /// The same; adds that position.
+  Aabb box(std::uint32_t node, std::vector<Eigen::Vector3d>& read) const {
+    read.push_back(anchor(node));
+    return box_around_anchor(node, read.back());
+  }
 
  private:
+  Eigen::Vector3d anchor(std::uint32_t node) const { return (*positions_)(anchors_[node].vertex); }
+  Aabb box_around_anchor(std::uint32_t node, const Eigen::Vector3d& anchor) const;
+
   const Lipschitz_promise* promise_;
   const Position_source* positions_;
   std::vector<Node_anchor> anchors_;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "lodestone/tree/tree_layout.h"
 #include "lodestone/volumes/aabb.h"
@@ -23,6 +25,16 @@ concept Motion_bound = requires(const B& bound, std::uint32_t node) {
   { bound.node_count() } -> std::convertible_to<std::size_t>;
   { bound.box(node) } -> std::same_as<Aabb>;
 };
+
+/// A bound that reads some positions to find a box.
+///
+/// `bound.box(node, read)` gives the same box, and adds the positions that it has read of the node's own vertices, so
+/// that they are compared with the boxes of other bounds.
+template <class B>
+concept Reading_bound =
+    Motion_bound<B> && requires(const B& bound, std::uint32_t node, std::vector<Eigen::Vector3d>& read) {
+      { bound.box(node, read) } -> std::same_as<Aabb>;
+    };
 
 /// A bound that learns from positions which have been computed, or compares them with what was promised.
 ///
@@ -55,6 +67,13 @@ inline void open_if_not_finite(Aabb& box, std::size_t axis) {
 /// Checks that a layout lists no vertex that does not exist. O(V).
 /// @throws Bad_argument  it does
 void check_layout(const Tree_layout& layout, std::size_t vertex_count);
+
+/// Whether a position lies in a box. O(1).
+inline bool contains(const Aabb& box, const Eigen::Vector3d& position) {
+  bool result = true;
+  for (int axis = 0; axis < 3; ++axis) result &= (box.low[axis] <= position[axis]) & (position[axis] <= box.high[axis]);
+  return result;
+}
 
 /// What two boxes have in common, where both contain the same points. O(1).
 inline Aabb common_box(const Aabb& a, const Aabb& b) {

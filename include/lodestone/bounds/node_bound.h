@@ -7,6 +7,7 @@
 #include <span>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "lodestone/bounds/motion_bound.h"
 #include "lodestone/mesh/concepts.h"
@@ -23,6 +24,8 @@ class Node_bound {
   virtual std::size_t node_count() const = 0;
   /// A box around the vertices of a node in the current pose: see Motion_bound.
   virtual Aabb box(std::uint32_t node) const = 0;
+  /// See Reading_bound.
+  virtual Aabb box(std::uint32_t node, std::vector<Eigen::Vector3d>& /*read*/) const { return box(node); }
   /// See Watching_bound.
   virtual bool note_read(std::uint32_t /*leaf*/, const Aabb& /*fitted*/, Coordinates /*coordinates*/) { return true; }
   /// See All_watching_bound; only if `notes_all`.
@@ -48,6 +51,12 @@ class Node_bound_of final : public Node_bound {
   std::size_t node_count() const override { return bound_.node_count(); }
   /// As the bound gives it.
   Aabb box(std::uint32_t node) const override { return bound_.box(node); }
+  Aabb box(std::uint32_t node, std::vector<Eigen::Vector3d>& read) const override {
+    if constexpr (Reading_bound<std::remove_reference_t<B>>)
+      return bound_.box(node, read);
+    else
+      return bound_.box(node);
+  }
   bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) override {
     if constexpr (Watching_bound<std::remove_reference_t<B>>)
       return bound_.note_read(leaf, fitted, coordinates);
@@ -83,7 +92,7 @@ class Node_bound_of final : public Node_bound {
   B bound_;
 };
 
-/// A bound whose type is known only when the program runs. A model of All_watching_bound.
+/// A bound whose type is known only when the program runs. A model of All_watching_bound and Reading_bound.
 class Any_bound {
  public:
   /// @param bound  not null
@@ -97,6 +106,8 @@ class Any_bound {
   std::size_t node_count() const { return bound_->node_count(); }
   /// A box around the vertices of a node in the current pose.
   Aabb box(std::uint32_t node) const { return bound_->box(node); }
+  /// See Reading_bound; adds nothing if the bound reads nothing.
+  Aabb box(std::uint32_t node, std::vector<Eigen::Vector3d>& read) const { return bound_->box(node, read); }
   /// See Watching_bound; true if the bound does not watch.
   bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) {
     return bound_->note_read(leaf, fitted, coordinates);

@@ -43,10 +43,9 @@ class Placed_bound final : public Node_bound {
   /// Number of nodes of the tree.
   std::size_t node_count() const override { return bound_->node_count(); }
   /// The box of the bound, placed.
-  Aabb box(std::uint32_t node) const override {
-    const Aabb box = bound_->box(node);
-    return *placement_ ? placed_box((*placement_)->rotation(), (*placement_)->translation(), box) : box;
-  }
+  Aabb box(std::uint32_t node) const override { return placed(bound_->box(node)); }
+  /// The same; positions are added where the object is placed.
+  Aabb box(std::uint32_t node, std::vector<Eigen::Vector3d>& read) const override;
   /// Shows the bound where the vertices of a leaf are in the mesh. Moving them back would round. Given positions it
   /// must not see.
   bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) override;
@@ -59,6 +58,10 @@ class Placed_bound final : public Node_bound {
   bool watches() const override { return bound_->watches(); }
 
  private:
+  Aabb placed(const Aabb& box) const {
+    return *placement_ ? placed_box((*placement_)->rotation(), (*placement_)->translation(), box) : box;
+  }
+
   std::unique_ptr<Node_bound> bound_;
   const std::optional<Rigid_motion>* placement_;
   const std::optional<Positions>* given_;

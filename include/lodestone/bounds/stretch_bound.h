@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +24,7 @@ struct Landmark {
 };
 
 /// Boxes from a Stretch_promise. Reads the positions of one to three landmarks per node. A model of
-/// All_watching_bound.
+/// All_watching_bound and Reading_bound.
 ///
 /// Each vertex of a node answers to the landmark p that is nearest along edges at rest. It lies within
 /// sigma rho + 2 e of p, since each edge of a shortest path is at most sigma times as long as at rest. Paths may leave
@@ -51,6 +52,8 @@ class Stretch_bound {
   std::size_t node_count() const { return begin_.size(); }
   /// The box of a node in the current pose: one position for each of its landmarks.
   Aabb box(std::uint32_t node) const;
+  /// The same; adds those positions, unless the landmarks are those of the node's parent.
+  Aabb box(std::uint32_t node, std::vector<Eigen::Vector3d>& read) const;
   /// Compares the edges of a leaf that has been read with what was promised.
   /// @return false: an edge of the leaf is longer than was promised, by more than 10^-9 of its length. O(faces).
   bool note_read(std::uint32_t leaf, const Aabb& fitted, Coordinates coordinates) const;
@@ -73,6 +76,8 @@ class Stretch_bound {
     auto operator<=>(const Leaf_edge&) const = default;
   };
   void list_edges();
+  template <class Note>
+  Aabb box_around_landmarks(std::uint32_t node, Note note) const;
 
   const Stretch_promise* promise_;
   const Tree_layout* layout_;
@@ -80,6 +85,7 @@ class Stretch_bound {
   std::vector<double> rest_;                ///< 3 V
   std::vector<Landmark> landmarks_;         ///< of the nodes that have their own
   std::vector<std::uint32_t> begin_, end_;  ///< per node: where its landmarks stand; maybe those of its parent
+  std::vector<bool> has_own_;               ///< per node: they are not those of its parent
   std::vector<std::uint32_t> edge_begin_;   ///< per leaf and past the last: where its edges start
   std::vector<Leaf_edge> edges_;            ///< of each leaf, each once
   std::vector<double> squared_;             ///< per edge: its squared length at rest

@@ -41,9 +41,10 @@ Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, cons
 /// points and normals; with the query `first`, the contact may be another one. Times are `broad_phase` and
 /// `confirmation`.
 ///
-/// O(V) for two meshes whose boxes are apart and which have no border: then the numbers of vertices, edges and faces
-/// alone tell that all faces are triangles. Else O(V + F), and what an Overlap_search takes
-/// for the faces where the boxes overlap; if it gives up, what trees of these faces take, which are thrown away.
+/// O(V) for two meshes whose boxes are apart and which have no border: then the numbers of edges and faces alone tell
+/// that all faces are triangles, unless faces of two edges, which some of CGAL's operations make, stand beside larger
+/// ones. Else O(V + F), and what an Overlap_search takes for the faces where the boxes overlap; if it gives up, what
+/// trees of these faces take, which are thrown away.
 ///
 /// @param points_a, points_b  vertex point maps: where the vertices are
 /// @return none: the detector has to answer. So it is if `can_answer_at_once` is false, if a and b are the same mesh,

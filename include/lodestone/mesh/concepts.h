@@ -90,7 +90,8 @@ concept Array = requires { M::RowsAtCompileTime; } || requires(const M& sequence
 /// CGAL::Linear_cell_complex_for_bgl_combinatorial_map_helper, and Indexed_mesh. The concept checks syntax only;
 /// `Mesh_numbering` checks that every face is a triangle.
 template <class Mesh>
-concept Triangle_mesh = !Array<Mesh> && requires(const Mesh& mesh, Vertex<Mesh> v, Face<Mesh> f, Halfedge<Mesh> h) {
+concept Triangle_mesh = std::is_class_v<Mesh> && !Array<Mesh> &&
+                        requires(const Mesh& mesh, Vertex<Mesh> v, Face<Mesh> f, Halfedge<Mesh> h) {
   vertices(mesh);
   faces(mesh);
   { num_vertices(mesh) } -> std::convertible_to<std::size_t>;

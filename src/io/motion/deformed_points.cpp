@@ -57,6 +57,7 @@ struct Deformed_bound {
 
   std::size_t node_count() const { return bound.node_count(); }
   Aabb box(std::uint32_t node) const { return bound.box(node); }
+  Aabb box(std::uint32_t node, std::vector<Eigen::Vector3d>& read) const { return bound.box(node, read); }
 };
 
 }  // namespace
