@@ -23,6 +23,14 @@ bool is_empty(const Aabb& box) {
   return result;
 }
 
+/// Whether something holds of all nodes above one.
+template <class Holds>
+bool all_above(std::span<const std::uint32_t> parents, std::uint32_t node, Holds holds) {
+  while (node != 0)
+    if (!holds(node = parents[node])) return false;
+  return true;
+}
+
 void check_nodes(const Node_bound& bound, const Tree_layout& layout) {
   if (bound.node_count() < layout.node_count()) throw Bad_argument("a bound was made for a tree of fewer nodes");
 }
@@ -91,6 +99,8 @@ void Bounded_surface::bound(std::uint32_t node) {
   Aabb box = bounds_.front()->box(node, read_);
   for (std::size_t i = 1; i < bounds_.size(); ++i) box = common_box(box, bounds_[i]->box(node, read_));
   if (node != 0 && boxed_in_[parents_[node]] == frame_) box = common_box(box, boxes_[parents_[node]]);
+  const auto is_known = [](const Eigen::Vector3d& position) { return position.allFinite(); };
+  if (!std::ranges::all_of(read_, is_known)) return pose_all();  // which names the vertex
   const auto lies_within = [&](const Eigen::Vector3d& position) { return contains(box, position); };
   if (is_empty(box) || !std::ranges::all_of(read_, lies_within))  // though vertices must be in it
     ++violations_;
@@ -130,13 +140,17 @@ auto Bounded_surface::or_start_over(const Pose& pose) {
 void Bounded_surface::read(std::uint32_t leaf) {
   if (takes_long() || is_paused()) return give_up();
   const std::uint32_t node = layout().leaf_node(leaf);
-  const Aabb promised = box(node), promised_whole = box(0);
+  const Aabb promised = box(node);
+  box(0);
   if (all_posed_) return;  // there were no bounds, or these two were too many
   const auto vertices = layout().vertices(leaf);
   if (!in_memory_) or_start_over([&] { positions_->pose(vertices, posed_); });
   check_finite(leaf);
   boxes_[node].enclose(layout().leaf_faces(leaf, tree_->coordinates()));
-  if (!contains(promised, boxes_[node]) || !contains(promised_whole, boxes_[node])) ++violations_;
+  const auto holds = [&](std::uint32_t above) {
+    return boxed_in_[above] != frame_ || contains(boxes_[above], boxes_[node]);
+  };
+  if (!contains(promised, boxes_[node]) || !all_above(parents_, node, holds)) ++violations_;
   note_read(leaf);
   posed_in_[leaf] = frame_;
   vertices_posed_ += vertices.size();
@@ -159,12 +173,13 @@ std::span<const Leaf_vertex> Bounded_surface::component_vertices() {
 }
 
 Eigen::Vector3d Bounded_surface::position(const Leaf_vertex& at) {
-  const Aabb promised = box(layout().leaf_node(at.leaf));
   if (is_posed(at.leaf))
     return Eigen::Map<const Eigen::Vector3d>(tree_->coordinates().data() + 3 * std::size_t{at.vertex});
   const Eigen::Vector3d position = (*positions_)(at.vertex);
   if (!position.allFinite()) fail_not_finite(at.vertex, title_);
-  if (!contains(promised, position)) ++violations_;
+  const auto holds = [&](std::uint32_t node) { return boxed_in_[node] != frame_ || contains(boxes_[node], position); };
+  const std::uint32_t node = layout().leaf_node(at.leaf);
+  if (!holds(node) || !all_above(parents_, node, holds)) ++violations_;
   ++vertices_posed_;
   return position;
 }

@@ -36,8 +36,8 @@ CLI::Validator decimal() {
             const auto read = std::from_chars(text.data(), end, value);
             const bool is_plain = text.size() == 1 || !text.starts_with('0');
             if (read.ec == std::errc() && read.ptr == end && is_plain) return {};
-            if (read.ec == std::errc::result_out_of_range)
-              return fmt::format("expected at most {}, found {}", std::numeric_limits<std::uint64_t>::max(), text);
+            if (read.ec == std::errc::result_out_of_range && read.ptr == end)
+              return fmt::format("expected at most {}, found '{}'", std::numeric_limits<std::uint64_t>::max(), text);
             return fmt::format("expected a whole number in decimal digits, found '{}'", text);
           },
           ""};

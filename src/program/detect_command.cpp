@@ -63,6 +63,7 @@ void write_results(Detect_run& scene_run, std::optional<Atomic_file>& frames, co
   if (frames) Shard_folder::note_replaced(command.out);
   if (frames) frames->commit();
   if (summary) summary->commit();
+  if (command.merge_shards) Shard_folder(command.out).note_merged({"frames.jsonl", "summary.json"});
   if (scene_run.page() != nullptr) scene_run.page()->commit();
   if (scene_run.paraview() != nullptr) scene_run.paraview()->commit();
 }
@@ -188,7 +189,6 @@ int run(const Detect_command& command) {
     }
   }
   write_results(scene_run, frames, command);
-  if (command.merge_shards) Shard_folder(command.out).note_merged({"frames.jsonl", "summary.json"});
   print_results(scene_run, command);
   return exit_code_of(scene_run, command);
 }

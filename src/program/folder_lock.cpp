@@ -17,9 +17,13 @@ namespace {
 
 /// @throws Interrupted
 void wait_for_lock(int descriptor) {
-  constexpr std::chrono::milliseconds pause(10);  // the other run only renames files
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds pause(10);
+  constexpr std::chrono::seconds longest(5);  // another run only renames files
+  const auto start = Clock::now();
   while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && (errno == EWOULDBLOCK || errno == EINTR)) {
     check_interrupt();
+    if (Clock::now() - start > longest) return;  // somebody else holds it, such as the caller of the program
     std::this_thread::sleep_for(pause);
   }
 }

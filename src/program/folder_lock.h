@@ -6,10 +6,11 @@
 namespace lodestone {
 
 /// Held while results that belong together take their names: another run that writes into the same folder waits
-/// meanwhile, so the folder never has files of two runs. Ends with the process that holds it, however that ends.
+/// meanwhile, so that it does not have files of both. Ends with the process that holds it, however that ends.
 class Folder_lock {
  public:
-  /// Waits until nobody else holds it. Where the file system has no locks, nothing is locked.
+  /// Waits until nobody else holds it, for five seconds at most. Then, and where the file system has no locks, nothing
+  /// is locked.
   /// @param folder  exists
   /// @throws Interrupted  the user has asked to stop
   explicit Folder_lock(const std::filesystem::path& folder);

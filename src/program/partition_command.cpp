@@ -14,6 +14,7 @@
 #include "lodestone/io/results/coloured_ply.h"
 #include "lodestone/io/results/text_table.h"
 #include "lodestone/io/scenes/given_objects.h"
+#include "lodestone/mesh/joined_vertices.h"
 #include "program/commands.h"
 #include "program/exit_codes.h"
 #include "program/file_partition.h"
@@ -30,7 +31,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json statistics(const Scene_object& object, const File_partition& divided, const Partition_command& command) {
+/// Per vertex of the file: its region; null for a vertex that no face names and that doubles no other.
+Json labels_json(const File_surface& surface, const File_partition& divided) {
+  Json labels = divided.labels;
+  for (const auto v : unused_vertices(surface.faces, static_cast<std::uint32_t>(labels.size())))
+    if (surface.joined.empty() || surface.joined[v] == v) labels[v] = nullptr;
+  return labels;
+}
+
+Json statistics(const Scene_object& object, const File_surface& surface, const File_partition& divided,
+                const Partition_command& command) {
   const auto& statistics = divided.partition.statistics;
   return {{"mesh", shown_name(command.mesh)},
           {"strategy", command.strategy.name},
@@ -42,7 +52,7 @@ Json statistics(const Scene_object& object, const File_partition& divided, const
           {"regions", divided.partition.regions},
           {"region_sizes", divided.sizes},
           {"particles", divided.partition.particles},
-          {"labels", divided.labels},
+          {"labels", labels_json(surface, divided)},
           {"iterations", statistics.iterations},
           {"distance_evaluations", statistics.distance_evaluations},
           {"parts_before_repair", statistics.repair.parts_before},
@@ -53,7 +63,8 @@ Json statistics(const Scene_object& object, const File_partition& divided, const
 }
 
 /// The mesh as a page of one frame, with each particle at its start vertex.
-Page page_of(const Scene_object& object, const File_partition& divided, const Partition_command& command) {
+Page page_of(const Scene_object& object, const File_surface& surface, const File_partition& divided,
+             const Partition_command& command) {
   const Mesh_numbering numbering(object.mesh);
   const auto corners = numbering.corners();
   std::vector<Region_index> labels;                              // per vertex of the mesh
@@ -64,7 +75,7 @@ Page page_of(const Scene_object& object, const File_partition& divided, const Pa
   }
   std::vector<std::uint32_t> starts;
   for (const auto v : divided.partition.particles) starts.push_back(mesh_vertex[v]);
-  Json numbers = statistics(object, divided, command);
+  Json numbers = statistics(object, surface, divided, command);
   numbers.erase("seconds");  // so that equal partitions give equal pages
   numbers.erase("labels");   // the page has them
   Page page({.kind = Page_kind::partition, .title = shown_name(command.mesh), .strategy = command.strategy.name});
@@ -144,10 +155,10 @@ int run(const Partition_command& command) {
   std::optional<Atomic_file> json;
   if (!command.json.empty()) {
     json.emplace(command.json);
-    json->write(json_text(statistics(object, divided, command), 2));
+    json->write(json_text(statistics(object, surface, divided, command), 2));
     json->finish();
   }
-  if (page) page->finish(page_of(object, divided, command));
+  if (page) page->finish(page_of(object, surface, divided, command));
   if (!command.out.empty()) write_coloured_ply(command.out, surface.coordinates, surface.faces, divided.labels);
   if (json) json->commit();
   if (page) page->commit();

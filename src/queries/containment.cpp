@@ -7,7 +7,6 @@
 #include <limits>
 #include <span>
 
-#include "lodestone/mesh/check_finite.h"
 #include "lodestone/mesh/errors.h"
 #include "lodestone/queries/leaf_triangle.h"
 #include "lodestone/queries/surface_on_demand.h"

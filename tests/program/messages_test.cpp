@@ -111,7 +111,7 @@ TEST_F(Messages, about_a_whole_number_expect_decimal_digits_that_fit) {
   }
   expect_error(run_program({"partition", mesh, "--regions", "010"}), 2, "whole number in decimal digits, found '010'");
   expect_error(run_program({"partition", mesh, "--seed", "18446744073709551616"}), 2,
-               "--seed: expected at most 18446744073709551615, found 18446744073709551616");
+               "--seed: expected at most 18446744073709551615, found '18446744073709551616'");
 }
 
 TEST_F(Messages, about_a_shape_are_those_of_a_scene) {

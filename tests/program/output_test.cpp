@@ -207,6 +207,7 @@ TEST_F(Program_output, files_of_two_runs_into_one_folder_are_not_mixed) {
   const auto wait_until_written = [&] {  // two files of before, and two that wait for their names
     for (int i = 0; i < 2000 && content_of(out).size() < 4; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_EQ(content_of(out).size(), 4U);
   };
   std::optional<Held_lock> other(std::in_place, out);
   {
@@ -227,6 +228,13 @@ TEST_F(Program_output, files_of_two_runs_into_one_folder_are_not_mixed) {
   program.send(SIGTERM);
   expect_error(program.wait(), 130, "interrupted");
   expect_old_results();
+}
+
+TEST_F(Program_output, a_lock_that_somebody_keeps_does_not_keep_results_from_being_written) {
+  leave_old_results();
+  const Held_lock kept(out);
+  expect_success(run_program({"detect", scene(3), "--out", out.string()}));
+  EXPECT_EQ(read_json(out / "summary.json")["frames"], 3);
 }
 
 TEST_F(Program_output, a_second_signal_ends_even_a_frame_that_takes_very_long) {

@@ -81,8 +81,11 @@ Animation game_model(const fs::path& file, const Mesh_file_options& limits) {
 Animation sequence(const fs::path& pattern, const Mesh_file_options& limits) {
   auto files = find_numbered_files(pattern);
   Animation result{.kind = "sequence", .files = files};
-  set_surface(result, read_mesh_soup(files.front(), limits));
+  Mesh_soup soup = read_mesh_soup(files.front(), limits);
+  Joined_vertices joined = std::move(soup.joined);
+  set_surface(result, std::move(soup));
   result.motion = read_mesh_sequence(std::move(files), result.vertices, limits);
+  result.motion.joined = std::move(joined);
   return result;
 }
 

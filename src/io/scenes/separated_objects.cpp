@@ -138,6 +138,7 @@ Motion motion_of(const Motion& whole, const std::shared_ptr<Whole_pose>& pose,
                  const std::vector<std::uint32_t>& vertices) {
   Motion motion = whole;
   motion.resampled = {};  // the scene has chosen its frames
+  motion.joined = {};     // is of the vertices of the whole
   motion.pose = [pose, vertices](std::size_t frame, std::span<Point> positions) {
     pose->write(frame, vertices, positions);
   };
