@@ -25,17 +25,18 @@ struct Leaf_vertex {
 
 /// A surface whose nodes are bounded without being read, and whose leaves are posed when a query needs their faces.
 /// Nothing is done before it is asked for. Nothing is done twice in a pose, except that leaves which were posed one by
-/// one are posed again with all. A node below which all leaves have been posed has the box fitted to them.
+/// one are posed again with all, and that single vertices are read as often as they are asked for. A node below which
+/// all leaves have been posed has the box fitted to them.
 ///
 /// A bound is a promise, and what is read is compared with it:
-/// - the vertices of a leaf that is posed, with the boxes of the leaf and of the whole;
-/// - a vertex that is read alone, with the box of its leaf;
-/// - positions of a node that one of several bounds has read, with the box that all of them give;
+/// - the vertices of a leaf that is posed, with the boxes of the leaf and of the whole, and with those in use above it;
+/// - a vertex that is read alone, with the boxes in use of its leaf and above it;
+/// - positions of a node that its bounds have read, with the box of the node;
 /// - the leaves below a node, once all of them have been posed, with the node's box if that was in use;
 /// - all vertices, where all are posed, with all boxes in use.
 ///
-/// A node's box lies in that of the node above it, if that was in use before: so whoever goes down from the root
-/// compares a leaf with the boxes of all nodes above it.
+/// A node's box lies in that of the node above it, if that was in use before. A box that is made later is not compared
+/// with what has been read below its node, until all leaves there have been posed.
 ///
 /// If a vertex lies outside, or if bounds have no point in common, `is_broken()` says so, and a query that relied on
 /// boxes must `settle` the surface and ask again.

@@ -28,8 +28,8 @@ concept Motion_bound = requires(const B& bound, std::uint32_t node) {
 
 /// A bound that reads some positions to find a box.
 ///
-/// `bound.box(node, read)` gives the same box, and adds the positions that it has read of the node's own vertices, so
-/// that they are compared with the boxes of other bounds.
+/// `bound.box(node, read)` gives the same box, and appends to `read` the positions that it has read of the node's own
+/// vertices, so that they are compared with the boxes of other bounds. What `read` holds already stays.
 template <class B>
 concept Reading_bound =
     Motion_bound<B> && requires(const B& bound, std::uint32_t node, std::vector<Eigen::Vector3d>& read) {

@@ -41,7 +41,7 @@ bool encloses(const Object_surface& outer, const Layout_view& outer_layout, cons
               const Layout_view& inner_layout);
 
 /// The same for surfaces that are bounded. Of `inner` one position per component is computed, unless the boxes around
-/// the two are apart. Broken bounds are handled as by `point_side`.
+/// the two are apart, and compared with the boxes in use. Broken bounds are handled as by `point_side`.
 /// @throws Bad_mesh  a coordinate that is read is not finite
 bool encloses(Bounded_surface& outer, Bounded_surface& inner);
 

@@ -16,7 +16,7 @@ namespace lodestone {
 /// - `box(node)` encloses the vertices of a node, unless the surface turns out to be broken. It may be infinite.
 /// - `pose(leaf)` makes the faces of a leaf readable, and returns the box fitted to them, which is finite.
 /// - `view()` has the coordinates of the leaves that have been posed. They may move in memory with each `pose`.
-/// - `is_broken()`: some vertex that has been posed lies outside a box that was handed out, or such a box is empty.
+/// - `is_broken()`: some vertex that has been read lies outside a box that was in use then, or such a box is empty.
 /// - `settle()` poses all leaves and fits all boxes, so that nothing is broken any more.
 template <class Surface>
 concept Surface_on_demand = requires(Surface& surface, const Surface& fixed, std::uint32_t index) {
