@@ -23,14 +23,6 @@ bool is_empty(const Aabb& box) {
   return result;
 }
 
-/// Whether something holds of all nodes above one.
-template <class Holds>
-bool all_above(std::span<const std::uint32_t> parents, std::uint32_t node, Holds holds) {
-  while (node != 0)
-    if (!holds(node = parents[node])) return false;
-  return true;
-}
-
 void check_nodes(const Node_bound& bound, const Tree_layout& layout) {
   if (bound.node_count() < layout.node_count()) throw Bad_argument("a bound was made for a tree of fewer nodes");
 }
@@ -95,20 +87,37 @@ void Bounded_surface::plan_frame() {
 void Bounded_surface::bound(std::uint32_t node) {
   if (bounds_.empty()) return pose_all();
   if (takes_long() || (is_paused() && node != 0)) return give_up();
-  read_.clear();
-  Aabb box = bounds_.front()->box(node, read_);
-  for (std::size_t i = 1; i < bounds_.size(); ++i) box = common_box(box, bounds_[i]->box(node, read_));
-  if (node != 0 && boxed_in_[parents_[node]] == frame_) box = common_box(box, boxes_[parents_[node]]);
-  const auto is_known = [](const Eigen::Vector3d& position) { return position.allFinite(); };
-  if (!std::ranges::all_of(read_, is_known)) return pose_all();  // which names the vertex
+  const Aabb box = box_from_bounds(node);
+  const auto is_finite = [](const Eigen::Vector3d& position) { return position.allFinite(); };
+  if (!std::ranges::all_of(read_by_bounds_, is_finite)) return pose_all();  // which names the vertex
   const auto lies_within = [&](const Eigen::Vector3d& position) { return contains(box, position); };
-  if (is_empty(box) || !std::ranges::all_of(read_, lies_within))  // though vertices must be in it
+  if (is_empty(box) || !std::ranges::all_of(read_by_bounds_, lies_within))  // though vertices must be in it
     ++violations_;
   else
     bounded_.push_back(node);  // first: a box that is in use is also one that is compared with what is read
   boxes_[node] = box;
   boxed_in_[node] = frame_;
   ++nodes_bounded_;
+}
+
+/// What all bounds have in common, cut to the box of the node above, if that is in use. So a position that bounds have
+/// read is compared with the boxes of other bounds, and of the nodes through which a query came.
+Aabb Bounded_surface::box_from_bounds(std::uint32_t node) {
+  read_by_bounds_.clear();
+  Aabb box = bounds_.front()->box(node, read_by_bounds_);
+  for (std::size_t i = 1; i < bounds_.size(); ++i) box = common_box(box, bounds_[i]->box(node, read_by_bounds_));
+  const std::uint32_t above = parents_[node];
+  return node != 0 && boxed_in_[above] == frame_ ? common_box(box, boxes_[above]) : box;
+}
+
+/// Whether a box, or a position, lies in the boxes of a node and of all nodes above it, where they are in use. A query
+/// can begin below the root, so boxes above need not be.
+template <class Contained>
+bool Bounded_surface::lies_in_boxes_in_use(std::uint32_t node, const Contained& contained) const {
+  const auto sticks_out = [&](std::uint32_t n) { return boxed_in_[n] == frame_ && !contains(boxes_[n], contained); };
+  for (; node != 0; node = parents_[node])
+    if (sticks_out(node)) return false;
+  return !sticks_out(0);
 }
 
 /// Whether so much has been done as it takes to pose all.
@@ -140,17 +149,15 @@ auto Bounded_surface::or_start_over(const Pose& pose) {
 void Bounded_surface::read(std::uint32_t leaf) {
   if (takes_long() || is_paused()) return give_up();
   const std::uint32_t node = layout().leaf_node(leaf);
-  const Aabb promised = box(node);
-  box(0);
+  box(node), box(0);       // in use from here on: what is read is compared with them
   if (all_posed_) return;  // there were no bounds, or these two were too many
   const auto vertices = layout().vertices(leaf);
   if (!in_memory_) or_start_over([&] { positions_->pose(vertices, posed_); });
   check_finite(leaf);
-  boxes_[node].enclose(layout().leaf_faces(leaf, tree_->coordinates()));
-  const auto holds = [&](std::uint32_t above) {
-    return boxed_in_[above] != frame_ || contains(boxes_[above], boxes_[node]);
-  };
-  if (!contains(promised, boxes_[node]) || !all_above(parents_, node, holds)) ++violations_;
+  Aabb fitted;
+  fitted.enclose(layout().leaf_faces(leaf, tree_->coordinates()));
+  if (!lies_in_boxes_in_use(node, fitted)) ++violations_;
+  boxes_[node] = fitted;
   note_read(leaf);
   posed_in_[leaf] = frame_;
   vertices_posed_ += vertices.size();
@@ -177,9 +184,7 @@ Eigen::Vector3d Bounded_surface::position(const Leaf_vertex& at) {
     return Eigen::Map<const Eigen::Vector3d>(tree_->coordinates().data() + 3 * std::size_t{at.vertex});
   const Eigen::Vector3d position = (*positions_)(at.vertex);
   if (!position.allFinite()) fail_not_finite(at.vertex, title_);
-  const auto holds = [&](std::uint32_t node) { return boxed_in_[node] != frame_ || contains(boxes_[node], position); };
-  const std::uint32_t node = layout().leaf_node(at.leaf);
-  if (!holds(node) || !all_above(parents_, node, holds)) ++violations_;
+  if (!lies_in_boxes_in_use(layout().leaf_node(at.leaf), position)) ++violations_;
   ++vertices_posed_;
   return position;
 }

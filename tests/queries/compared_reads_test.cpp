@@ -10,7 +10,6 @@
 
 #include "lodestone/bounds/lipschitz_bound.h"
 #include "lodestone/bounds/stretch_bound.h"
-#include "lodestone/mesh/errors.h"
 #include "lodestone/queries/containment.h"
 #include "support/arm.h"
 
@@ -19,7 +18,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Gives the box of one node as far beside it as it is long.
+/// Moves the box of one node along x by half its length.
 struct Beside {
   const Skin_bound& truth;
   std::uint32_t wrong;
@@ -121,7 +120,7 @@ TEST(Compared_reads, are_compared_with_boxes_above_that_were_made_later_than_tho
   }
 }
 
-TEST(Compared_reads, of_bounds_that_are_not_finite_name_the_vertex) {
+TEST(Compared_reads, of_bounds_that_are_not_finite_have_all_vertices_read) {
   Arm a(long_potato(5, 1), false);
   a.pose(0.4, {0, 0, 0});
   const Reads reads{a.bound.node_count(), {std::numeric_limits<double>::quiet_NaN(), 0, 0}};

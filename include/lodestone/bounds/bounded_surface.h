@@ -29,7 +29,7 @@ struct Leaf_vertex {
 /// all leaves have been posed has the box fitted to them.
 ///
 /// A bound is a promise, and what is read is compared with it:
-/// - the vertices of a leaf that is posed, with the boxes of the leaf and of the whole, and with those in use above it;
+/// - the vertices of a leaf that is posed, with the boxes of the leaf and of the whole, and with those in use between;
 /// - a vertex that is read alone, with the boxes in use of its leaf and above it;
 /// - positions of a node that its bounds have read, with the box of the node;
 /// - the leaves below a node, once all of them have been posed, with the node's box if that was in use;
@@ -107,7 +107,7 @@ class Bounded_surface {
     if (posed_in_[leaf] != frame_) read(leaf);
     return boxes_[layout().leaf_node(leaf)];
   }
-  /// One vertex of each connected component, with a leaf. O(V) when it is called first.
+  /// One vertex of each connected component, with a leaf. O(V) in the first call, then O(1).
   std::span<const Leaf_vertex> component_vertices();
   /// Where a vertex is: reads it, unless its leaf has been posed.
   /// @throws Bad_mesh  a coordinate is not finite
@@ -156,6 +156,9 @@ class Bounded_surface {
   bool takes_long() const;
   void give_up();
   void bound(std::uint32_t node);
+  Aabb box_from_bounds(std::uint32_t node);
+  template <class Contained>
+  bool lies_in_boxes_in_use(std::uint32_t node, const Contained& contained) const;
   void read(std::uint32_t leaf);
   void fit_parents_of(std::uint32_t node);
   void note_refitted();
@@ -183,7 +186,7 @@ class Bounded_surface {
   bool much_was_near_ = false;              ///< all vertices were posed because much was asked for
   std::size_t pause_ = 0, pause_left_ = 0;  ///< frames in which leaves are not posed one by one: planned, still to come
   std::vector<std::uint32_t> bounded_;      ///< nodes whose boxes come from bounds, in this frame
-  std::vector<Eigen::Vector3d> read_;       ///< by bounds, of the node that is bounded
+  std::vector<Eigen::Vector3d> read_by_bounds_;  ///< positions of the node whose box is made
   std::vector<Leaf_vertex> component_vertices_;  ///< empty: not asked for yet
   std::size_t violations_ = 0, violations_settled_ = 0, nodes_bounded_ = 0, leaves_posed_ = 0, vertices_posed_ = 0;
 };

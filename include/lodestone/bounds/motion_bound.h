@@ -70,9 +70,9 @@ void check_layout(const Tree_layout& layout, std::size_t vertex_count);
 
 /// Whether a position lies in a box. O(1).
 inline bool contains(const Aabb& box, const Eigen::Vector3d& position) {
-  bool result = true;
-  for (int axis = 0; axis < 3; ++axis) result &= (box.low[axis] <= position[axis]) & (position[axis] <= box.high[axis]);
-  return result;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(box.low[axis] <= position[axis] && position[axis] <= box.high[axis])) return false;
+  return true;
 }
 
 /// What two boxes have in common, where both contain the same points. O(1).

@@ -29,8 +29,8 @@ namespace {
 constexpr std::string_view shape_prefix = "shape:", scene_mark = ".json#";
 
 /// The file's name without folder, extension and the number of a pattern: `seq/cloth_###.obj` is `cloth`. Names are
-/// shown in tables and messages, so control characters are replaced. They are written to JSON, so other names that are
-/// no UTF-8 are not to become equal there.
+/// shown in tables and messages, so control characters are replaced. So is what is no UTF-8, before names are made to
+/// differ: JSON replaces it too, and names could become equal there.
 std::string name_of(const std::filesystem::path& input) {
   const auto parts = mesh_and_cache(input);
   const auto file = parts ? parts->mesh : input;
