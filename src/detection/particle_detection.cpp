@@ -114,7 +114,7 @@ const Frame& Particle_detection::detect(const Collision_filter& filter) {
   check_arithmetic();
   prepare();
   note_vertices();
-  frame_.start(std::exchange(since_last_frame_, {}));
+  frame_.start(since_last_frame_);
   try {
     if (meets())
       detect_by_meetings(filter);
@@ -124,6 +124,7 @@ const Frame& Particle_detection::detect(const Collision_filter& filter) {
     restore_vertices();
     throw;
   }
+  since_last_frame_ = {};
   for (auto& object : objects_)
     if (object) object->particle_object.keep_stretch();
   return frame_.finish();

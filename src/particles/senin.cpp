@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "lodestone/mesh/errors.h"
+#include "partition/draw_without_repetition.h"
 
 namespace lodestone {
 
@@ -38,12 +39,8 @@ std::vector<std::uint32_t> scatter_particles(const Vertex_graph& graph, const Po
     if (out_degree(v, graph) > 0) drawn.push_back(v);
   if (options.side && !drawn.empty()) drawn = farthest_along(*options.side, drawn, positions);
 
-  // The first steps of a shuffle. It uses remainders, because they are the same on every platform, unlike the
-  // distributions of the standard library.
   std::mt19937_64 random(options.seed);
-  const std::size_t count = std::min(particles, drawn.size());
-  for (std::size_t i = 0; i < count; ++i) std::swap(drawn[i], drawn[i + random() % (drawn.size() - i)]);
-  drawn.resize(count);
+  drawn.resize(draw_without_repetition(drawn, particles, random));
   return drawn;
 }
 

@@ -2,9 +2,9 @@
 #include "partition/face_geometry.h"
 
 #include <Eigen/Geometry>
-#include <limits>
 
 #include "lodestone/mesh/scaled_positions.h"
+#include "partition/parallel_sides.h"
 
 namespace lodestone {
 
@@ -19,10 +19,8 @@ Face_geometry face_geometry(const Numbered_surface& surface) {
     const Eigen::RowVector3d first = (scaled.row(b) - scaled.row(a)) / extent;
     const Eigen::RowVector3d second = (scaled.row(c) - scaled.row(a)) / extent;
     const Eigen::RowVector3d area_normal = first.cross(second);
+    if (parallel_sides(first, second, area_normal)) continue;
     const double length = area_normal.norm();
-    // The cross product of parallel sides is only rounding error, with an arbitrary direction.
-    constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-    if (length <= rounding * first.norm() * second.norm()) continue;
     result.normals.row(f) = area_normal / length;
     result.areas[f] = length / 2;
   }

@@ -87,7 +87,7 @@ void revive_labels(std::vector<Share> all, std::vector<Region_index>& labels) {
 }
 
 /// Gives vertices without a label that of the nearest vertex that has one; 0 if there is none.
-void spread_labels(const Vertex_graph& graph, std::vector<Region_index>& labels) {
+void label_the_unlabelled(const Vertex_graph& graph, std::vector<Region_index>& labels) {
   std::vector<std::uint32_t> front;
   for (std::uint32_t v = 0; v < labels.size(); ++v)
     if (labels[v] != no_region) front.push_back(v);
@@ -109,7 +109,7 @@ std::vector<Region_index> vertex_labels(const Numbered_surface& surface, std::sp
   const auto all = shares(surface, face_labels);
   auto labels = majorities(num_vertices(surface.graph), all);
   revive_labels(all, labels);
-  spread_labels(surface.graph, labels);
+  label_the_unlabelled(surface.graph, labels);
   return labels;
 }
 

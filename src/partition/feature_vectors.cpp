@@ -3,9 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
 
 #include "lodestone/mesh/scaled_positions.h"
+#include "partition/parallel_sides.h"
 
 namespace lodestone {
 
@@ -20,16 +20,6 @@ void move_into_unit_ball(Positions& positions) {
   positions /= std::sqrt(positions.rowwise().squaredNorm().maxCoeff());
 }
 
-/// Whether two sides of a face are parallel but for rounding: then their cross product is nothing but rounding error,
-/// with an arbitrary direction.
-bool parallel(const Eigen::RowVector3d& first, const Eigen::RowVector3d& second, const Eigen::RowVector3d& cross) {
-  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-  // Most faces are far from that, and their squares from underflow: saves three roots.
-  const double squared = cross.squaredNorm();
-  if (squared > 1e-200 && squared > 4 * rounding * rounding * first.squaredNorm() * second.squaredNorm()) return false;
-  return cross.norm() <= rounding * first.norm() * second.norm();
-}
-
 /// `vertex_normals` of scaled positions.
 Positions normals_of(const Positions& scaled, std::span<const Corners> faces) {
   const double extent = (scaled.colwise().maxCoeff() - scaled.colwise().minCoeff()).maxCoeff();
@@ -39,7 +29,7 @@ Positions normals_of(const Positions& scaled, std::span<const Corners> faces) {
     const Eigen::RowVector3d first = (scaled.row(b) - scaled.row(a)) / extent;
     const Eigen::RowVector3d second = (scaled.row(c) - scaled.row(a)) / extent;
     const Eigen::RowVector3d area_normal = first.cross(second);
-    if (parallel(first, second, area_normal)) continue;
+    if (parallel_sides(first, second, area_normal)) continue;
     for (const auto corner : {a, b, c}) normals.row(corner) += area_normal;
   }
   for (Eigen::Index v = 0; v < normals.rows(); ++v) {

@@ -42,7 +42,7 @@ Quantisation train(const Feature_vectors& vectors, std::size_t cells, const Lbg_
 void label_all(const Feature_vectors& vectors, const Lbg_options& options, Quantisation& trained) {
   Workers workers(options.threads);
   Assignment assignment;
-  assignment.labels = spread_labels(static_cast<std::size_t>(vectors.rows()), trained.labels);
+  assignment.labels = labels_from_sample(static_cast<std::size_t>(vectors.rows()), trained.labels);
   Feature_vectors& codes = trained.code_vectors;
   if (options.search == Nearest_search::bounded)
     Bounded_assignment(vectors, workers).assign(codes, assignment);

@@ -20,7 +20,7 @@ Feature_vectors curvature_factor(const Numbered_surface& surface, const Curvatur
   Feature_vectors factor(scaled.rows(), 1);
   for (Eigen::Index v = 0; v < factor.rows(); ++v)
     factor(v, 0) = 2 / std::numbers::pi * std::atan(curvatures[v] * radius);
-  return used.spread_rows(std::move(factor));
+  return used.rows_of_all_vertices(std::move(factor));
 }
 
 Labelling Lbg_curvature::label(const Numbered_surface& surface, std::size_t regions) const {

@@ -56,21 +56,15 @@ std::vector<Region_index> parts_of(const Surface_mesh& mesh, std::size_t parts, 
   return labels;
 }
 
-std::size_t vertices_with_edges(const Vertex_graph& graph) {
-  std::size_t count = 0;
-  for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
-    if (out_degree(v, graph) > 0) ++count;
-  return count;
-}
-
 }  // namespace
 
 Labelling Metis::label(const Numbered_surface& surface, std::size_t regions) const {
   check(surface, options);
   return label_used(surface, regions, [this](const Numbered_surface& used, std::size_t wanted) -> Labelling {
     std::vector<Region_index> labels(num_vertices(used.graph), 0);
-    const std::size_t parts = std::min(wanted, vertices_with_edges(used.graph) / options.vertices_a_part);
-    if (parts > 1)
+    const std::size_t parts = std::min(wanted, labels.size() / options.vertices_a_part);
+    // Where one vertex of a used surface has edges, all have.
+    if (parts > 1 && num_edges(used.graph) > 0)
       labels = with_refusals_as_bad_mesh(name, [&] { return parts_of(oriented_mesh(used).mesh, parts, options); });
     labels.resize(num_vertices(used.graph));  // drops the copies that `oriented_mesh` makes of vertices
     adjust_region_count(used.graph, used.positions, labels, wanted);

@@ -35,14 +35,14 @@ void check(const Labelling& labelling, std::size_t vertices) {
 }
 
 /// A strategy that gives more labels than any limit allows does not go by the wanted number; nor does its limit.
-std::size_t wanted_of(const Labelling& labelling, std::size_t labels) {
-  return labels > most_regions(labelling.wanted) ? labels : labelling.wanted;
+std::size_t wanted_or_given(std::size_t wanted, std::size_t labels) {
+  return labels > most_regions(wanted) ? labels : wanted;
 }
 
 /// `feature_vectors`; those of vertices without edges are 0, and do not count for the others.
 Feature_vectors used_feature_vectors(const Numbered_surface& surface) {
   const Used_surface used(surface);
-  return used.spread_rows(feature_vectors(used.surface().positions, used.surface().faces));
+  return used.rows_of_all_vertices(feature_vectors(used.surface().positions, used.surface().faces));
 }
 
 /// The vertex of each region that is nearest to the region's mean vector. Ties go to the lowest index. Vertices without
@@ -76,7 +76,7 @@ std::vector<std::uint32_t> seed_particles(const Vertex_graph& graph, const Featu
 }  // namespace
 
 Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& positions,
-                                    std::span<const Corners> faces, Labelling labelling,
+                                    std::span<const Corners> faces, Labelling labelling, std::size_t wanted,
                                     const Partition_options& options) {
   check(labelling, num_vertices(graph));
   Numbered_partition result;
@@ -91,7 +91,7 @@ Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& 
   if (options.keep_islands)
     repair = {.regions = result.regions, .parts_before = count_parts(graph, result.labels)};
   else
-    repair = repair_islands(graph, result.labels, result.regions, wanted_of(labelling, result.regions));
+    repair = repair_islands(graph, result.labels, result.regions, wanted_or_given(wanted, result.regions));
   result.regions = repair.regions;
 
   if (labelling.vectors.size() == 0) labelling.vectors = used_feature_vectors({graph, positions, faces});

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "partition/cells.h"
+#include "partition/eigenvector_sign.h"
 #include "partition/fixed_components.h"
 
 namespace lodestone {
@@ -156,10 +157,7 @@ std::vector<Quantiser::Spread> Quantiser::cell_spreads() {
 Eigen::RowVectorXd Quantiser::principal_offset(const Eigen::MatrixXd& scatter, std::size_t cell_size) const {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scatter / static_cast<double>(cell_size));
   Eigen::VectorXd axis = solver.eigenvectors().rightCols<1>();
-  // The sign of an eigenvector is arbitrary. The largest component is made positive, so that runs agree.
-  Eigen::Index largest = 0;
-  axis.cwiseAbs().maxCoeff(&largest);
-  if (axis[largest] < 0) axis = -axis;
+  make_largest_component_positive(axis);
   const double variance = std::max(0.0, solver.eigenvalues().tail<1>().value());
   return (options_.split * std::sqrt(variance) * axis).transpose();
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lodestone/partition/lbg.h"
+#include "lodestone/partition/nearest_code_vector.h"
 
 namespace lodestone {
 

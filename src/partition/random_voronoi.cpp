@@ -7,6 +7,7 @@
 
 #include "lodestone/mesh/scaled_positions.h"
 #include "lodestone/partition/geodesic_voronoi.h"
+#include "partition/draw_without_repetition.h"
 #include "partition/used_surface.h"
 
 namespace lodestone {
@@ -16,17 +17,10 @@ std::vector<std::uint32_t> random_vertices(const Vertex_graph& graph, std::size_
   std::iota(order.begin(), order.end(), 0);
   const auto isolated =
       std::stable_partition(order.begin(), order.end(), [&](auto v) { return out_degree(v, graph) > 0; });
-  const auto with_edges = static_cast<std::size_t>(isolated - order.begin());
 
-  // The first steps of a shuffle. It uses remainders, because they are the same on every platform, unlike the
-  // distributions of the standard library.
   std::mt19937_64 random(seed);
-  count = std::min(count, order.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t end = i < with_edges ? with_edges : order.size();
-    std::swap(order[i], order[i + random() % (end - i)]);
-  }
-  order.resize(count);
+  const std::size_t drawn = draw_without_repetition({order.begin(), isolated}, count, random);
+  order.resize(drawn + draw_without_repetition({isolated, order.end()}, count - drawn, random));
   return order;
 }
 

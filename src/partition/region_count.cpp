@@ -15,6 +15,8 @@
 #include "lodestone/mesh/scaled_positions.h"
 #include "lodestone/partition/islands.h"
 #include "lodestone/partition/nearest_code_vector.h"
+#include "partition/eigenvector_sign.h"
+#include "partition/islands_of.h"
 
 namespace lodestone {
 
@@ -198,7 +200,6 @@ class Splitting {
   std::size_t run(std::size_t wanted);
 
  private:
-  std::vector<Vertices> islands(const Vertices& vertices);
   Islands_of_region cut_off(Islands_of_region& region);
   std::pair<Vertices, Vertices> halves(const Vertices& region);
   Vertices grown_half(const Vertices& region);
@@ -207,35 +208,14 @@ class Splitting {
   const Vertex_graph& graph_;
   const Positions positions_;
   std::vector<Region_index>& labels_;
-  std::vector<std::uint32_t> marks_;  ///< per vertex: the search that has yet to reach it
-  std::uint32_t searches_ = 0;
+  std::vector<bool> open_;  ///< per vertex: the search has yet to reach it; false between searches
   std::vector<Islands_of_region> regions_;
 };
 
 Splitting::Splitting(const Vertex_graph& graph, const Positions& positions, std::vector<Region_index>& labels,
                      std::size_t regions)
-    : graph_(graph), positions_(scaled_positions(positions)), labels_(labels), marks_(labels.size(), 0) {
-  for (const auto& region : members(graph, labels, regions)) regions_.emplace_back(islands(region));
-}
-
-/// Islands of a set of vertices, in the order of their lowest vertex, each in ascending order.
-std::vector<Vertices> Splitting::islands(const Vertices& vertices) {
-  const std::uint32_t open = ++searches_;
-  for (const auto v : vertices) marks_[v] = open;
-  std::vector<Vertices> result;
-  for (const auto start : vertices) {
-    if (marks_[start] != open) continue;
-    Vertices& island = result.emplace_back(1, start);
-    marks_[start] = 0;
-    for (std::size_t i = 0; i < island.size(); ++i)
-      for (const auto w : neighbours(graph_, island[i]))
-        if (marks_[w] == open) {
-          marks_[w] = 0;
-          island.push_back(w);
-        }
-    std::ranges::sort(island);
-  }
-  return result;
+    : graph_(graph), positions_(scaled_positions(positions)), labels_(labels), open_(labels.size(), false) {
+  for (const auto& region : members(graph, labels, regions)) regions_.emplace_back(islands_of(graph_, region, open_));
 }
 
 Eigen::Vector3d Splitting::longest_axis(const Vertices& region) const {
@@ -251,10 +231,8 @@ Eigen::Vector3d Splitting::longest_axis(const Vertices& region) const {
     scatter += offset.transpose() * offset;
   }
   Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors().col(2);
-  // The sign of an eigenvector is arbitrary. The largest component is made positive, so that runs agree.
-  Eigen::Index largest = 0;
-  axis.cwiseAbs().maxCoeff(&largest);
-  return axis[largest] < 0 ? Eigen::Vector3d(-axis) : axis;
+  make_largest_component_positive(axis);
+  return axis;
 }
 
 /// Half of a connected region, grown from its end along the longest axis.
@@ -262,12 +240,11 @@ Vertices Splitting::grown_half(const Vertices& region) {
   const Eigen::Vector3d axis = longest_axis(region);
   using Entry = std::pair<double, std::uint32_t>;
   const auto entry = [&](std::uint32_t v) { return Entry(positions_.row(v).dot(axis), v); };
-  const std::uint32_t open = ++searches_;
-  for (const auto v : region) marks_[v] = open;
+  for (const auto v : region) open_[v] = true;
 
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
   const auto reach = [&](std::uint32_t v) {
-    marks_[v] = 0;
+    open_[v] = false;
     front.push(entry(v));
   };
   reach(*std::ranges::min_element(region, {}, entry));
@@ -276,8 +253,9 @@ Vertices Splitting::grown_half(const Vertices& region) {
     half.push_back(front.top().second);
     front.pop();
     for (const auto w : neighbours(graph_, half.back()))
-      if (marks_[w] == open) reach(w);
+      if (open_[w]) reach(w);
   }
+  for (const auto v : region) open_[v] = false;
   std::ranges::sort(half);
   return half;
 }
@@ -290,7 +268,7 @@ Vertices without(const Vertices& all, const Vertices& some) {
 
 /// Two sides of a connected region of two or more vertices, both connected; the lowest vertex is in the first.
 std::pair<Vertices, Vertices> Splitting::halves(const Vertices& region) {
-  const auto parts = islands(without(region, grown_half(region)));
+  const auto parts = islands_of(graph_, without(region, grown_half(region)), open_);
   Vertices side = *std::ranges::max_element(parts, {}, &Vertices::size);
   Vertices rest = without(region, side);
   if (side.front() == region.front()) std::swap(side, rest);

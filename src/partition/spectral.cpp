@@ -11,6 +11,7 @@
 #include <string>
 
 #include "lodestone/mesh/errors.h"
+#include "partition/islands_of.h"
 #include "partition/used_surface.h"
 
 namespace lodestone {
@@ -164,7 +165,6 @@ class Dissection {
   Labelling result() const;
 
  private:
-  std::vector<Vertices> islands(const Vertices& part);
   Vertices cut_off(const Vertices& part);
   Vertices cut_off_islands(std::vector<Vertices> islands) const;
   Vertices cut_along_fiedler_vector(const Vertices& part);
@@ -173,32 +173,18 @@ class Dissection {
   const Spectral_options& options_;
   std::vector<Vertices> parts_;
   std::vector<std::uint32_t> local_;  ///< scratch: per vertex its index within the current part, or no_vertex
+  std::vector<bool> open_;            ///< buffer of `islands_of`
   std::size_t iterations_ = 0;
 };
 
 Dissection::Dissection(const Vertex_graph& graph, const Spectral_options& options)
-    : graph_(graph), options_(options), parts_(1), local_(num_vertices(graph), no_vertex) {
+    : graph_(graph),
+      options_(options),
+      parts_(1),
+      local_(num_vertices(graph), no_vertex),
+      open_(num_vertices(graph), false) {
   for (std::uint32_t v = 0; v < num_vertices(graph); ++v)
     if (out_degree(v, graph) > 0) parts_[0].push_back(v);
-}
-
-/// Islands of a part, in the order of their lowest vertex, each in ascending order.
-std::vector<Vertices> Dissection::islands(const Vertices& part) {
-  for (const auto v : part) local_[v] = 0;
-  std::vector<Vertices> result;
-  for (const auto start : part) {
-    if (local_[start] == no_vertex) continue;
-    Vertices& island = result.emplace_back(1, start);
-    local_[start] = no_vertex;
-    for (std::size_t i = 0; i < island.size(); ++i)
-      for (const auto w : neighbours(graph_, island[i]))
-        if (local_[w] != no_vertex) {
-          local_[w] = no_vertex;
-          island.push_back(w);
-        }
-    std::ranges::sort(island);
-  }
-  return result;
 }
 
 /// Divides islands into two sides of about equal size. Returns the side without the lowest vertex.
@@ -237,7 +223,7 @@ Vertices Dissection::cut_along_fiedler_vector(const Vertices& part) {
 
 /// The vertices that leave a part of two or more vertices.
 Vertices Dissection::cut_off(const Vertices& part) {
-  auto all = islands(part);
+  auto all = islands_of(graph_, part, open_);
   return all.size() > 1 ? cut_off_islands(std::move(all)) : cut_along_fiedler_vector(part);
 }
 

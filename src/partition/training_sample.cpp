@@ -29,7 +29,7 @@ std::vector<std::uint32_t> draw_sample(std::size_t vectors, std::size_t size) {
   return sample;
 }
 
-std::vector<Region_index> spread_labels(std::size_t vectors, std::span<const Region_index> sample_labels) {
+std::vector<Region_index> labels_from_sample(std::size_t vectors, std::span<const Region_index> sample_labels) {
   std::vector<Region_index> labels;
   labels.reserve(vectors);
   for (std::size_t run = 0; run < sample_labels.size(); ++run)

@@ -23,6 +23,6 @@ std::vector<std::uint32_t> draw_sample(std::size_t vectors, std::size_t size);
 /// Labels of all vectors to begin with: that of the vector drawn from the same run. Consecutive vertices of a mesh are
 /// mostly near each other, so most of these labels are right.
 /// @param sample_labels  of the vectors of `draw_sample`
-std::vector<Region_index> spread_labels(std::size_t vectors, std::span<const Region_index> sample_labels);
+std::vector<Region_index> labels_from_sample(std::size_t vectors, std::span<const Region_index> sample_labels);
 
 }  // namespace lodestone

@@ -25,14 +25,14 @@ Used_surface::Used_surface(const Numbered_surface& surface) : whole_(surface) {
   part_.emplace(Part{surface.positions(vertices_, Eigen::all), std::move(faces), std::move(graph)});
 }
 
-Feature_vectors Used_surface::spread_rows(Feature_vectors rows) const {
+Feature_vectors Used_surface::rows_of_all_vertices(Feature_vectors rows) const {
   if (is_whole() || rows.size() == 0) return rows;
   Feature_vectors all = Feature_vectors::Zero(static_cast<Eigen::Index>(num_vertices(whole_.graph)), rows.cols());
   all(vertices_, Eigen::all) = rows;
   return all;
 }
 
-std::vector<Region_index> Used_surface::spread_labels(std::vector<Region_index> labels) const {
+std::vector<Region_index> Used_surface::labels_of_all_vertices(std::vector<Region_index> labels) const {
   if (is_whole()) return labels;
   std::vector<Region_index> all(num_vertices(whole_.graph), 0);
   for (std::size_t i = 0; i < vertices_.size(); ++i) all[vertices_[i]] = labels[i];

@@ -35,9 +35,9 @@ class Used_surface {
     return is_whole() || all.size() == 0 ? all : Feature_vectors(all(vertices_, Eigen::all));
   }
   /// Rows for all vertices; 0 for those without edges.
-  Feature_vectors spread_rows(Feature_vectors rows) const;
+  Feature_vectors rows_of_all_vertices(Feature_vectors rows) const;
   /// Labels of all vertices; 0 for those without edges.
-  std::vector<Region_index> spread_labels(std::vector<Region_index> labels) const;
+  std::vector<Region_index> labels_of_all_vertices(std::vector<Region_index> labels) const;
 
  private:
   struct Part {
@@ -56,8 +56,8 @@ template <class Label>
 Labelling label_used(const Used_surface& used, std::size_t regions, const Label& label) {
   if (used.is_whole()) return label(used.surface(), regions);
   Labelling labelling = label(used.surface(), std::min(regions, used.vertices().size()));
-  labelling.labels = used.spread_labels(std::move(labelling.labels));
-  labelling.vectors = used.spread_rows(std::move(labelling.vectors));
+  labelling.labels = used.labels_of_all_vertices(std::move(labelling.labels));
+  labelling.vectors = used.rows_of_all_vertices(std::move(labelling.vectors));
   return labelling;
 }
 

@@ -135,6 +135,28 @@ TEST(Computed_points, that_fail_leave_the_next_frame_right_in_the_modes_that_rea
   }
 }
 
+TEST(Computed_points, that_fail_leave_it_to_the_next_frame_to_tell_what_was_built) {
+  const Surface_mesh still = icosphere(16), moving = shifted(still, step, 0.01);
+  for (const auto mode : {Mode::exact, Mode::certified, Mode::particles, Mode::senin}) {
+    SCOPED_TRACE(name_of(mode));
+    std::size_t failures = 0;
+    for (std::size_t reads = 0;; reads += 40) {
+      std::size_t left = endless;
+      Failing_points points{.mesh = &moving, .left = &left};
+      Detector detector({.mode = mode});
+      detector.add(still);
+      detector.add(moving, point_map(moving, points));
+      if (!fails(detector, left, reads)) break;
+      ++failures;
+      const Frame& frame = detector.detect();
+      EXPECT_EQ(frame.statistics.builds, 2U) << reads;
+      EXPECT_GT(frame.statistics.seconds.build, 0) << reads;
+      EXPECT_EQ(frame.number, 2U);
+    }
+    EXPECT_GT(failures, 0U);
+  }
+}
+
 TEST(Computed_points, that_have_become_fewer_than_the_vertices_are_an_error_in_every_mode) {
   const Surface_mesh still = icosphere(6);
   for (const auto mode : {Mode::exact, Mode::certified, Mode::particles, Mode::senin}) {

@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <random>
+#include <set>
 
 #include "support/count_allocations.h"
 #include "support/test_meshes.h"
@@ -331,6 +332,13 @@ TEST(Relax, siblings_repel_each_other_if_requested) {
   }
 }
 
+TEST(Relax, a_particle_that_has_arrived_stays_also_where_a_sibling_has) {
+  Walker walker(grid_points(7, 2), grid_faces(7, 2), std::vector<Region_index>(14, 0), {3, 3}, 1);
+  Post post(walker.points[3], 1e5);
+  relax_all({&walker, &post}, true);
+  EXPECT_EQ(walker.particles.at, (At{3, 3}));
+}
+
 TEST(Relax, allocates_nothing_after_the_first_call) {
   Grid_walker one(30, 30, 0, 30), other(30, 30, 899, 30);
   const std::vector<std::uint32_t> feels_other{1}, feels_one{0};
@@ -363,7 +371,11 @@ Relaxation relax_without_rest(std::span<const Walking_object<Reader_type>> objec
     for (std::size_t o = 0; o < objects.size(); ++o) {
       const std::size_t moving = internal::choose_steps(objects, o, scratch);
       result.moves += moving;
-      result.relaxed &= 10 * moving < objects[o].particles->at.size();
+      std::set<std::uint32_t> walking;
+      for (std::uint32_t p = 0; p < objects[o].particles->at.size(); ++p)
+        if (!objects[o].pulls) walking.insert(p);
+      for (const Pull& pull : objects[o].pulls.value_or(std::span<const Pull>())) walking.insert(pull.particle);
+      result.relaxed &= moving == 0 || 10 * moving < walking.size();
     }
     for (std::size_t o = 0; o < objects.size(); ++o) internal::take_steps(*objects[o].particles, o, scratch);
   }
@@ -436,6 +448,7 @@ std::deque<Walker> uneven_crowd(std::uint64_t seed, double reach) {
 }
 
 TEST(Relaxation, leaves_particles_at_rest_alone_where_forces_reach_differently_far_and_steps_differ_in_length) {
+  std::size_t moves = 0;
   for (const bool siblings_repel : {false, true})
     for (const double reach : {0.3, 0.6, 1.2})
       for (std::uint64_t seed = 1; seed <= 12; ++seed) {
@@ -445,11 +458,13 @@ TEST(Relaxation, leaves_particles_at_rest_alone_where_forces_reach_differently_f
         EXPECT_EQ(found.iterations, expected.iterations);
         EXPECT_EQ(found.moves, expected.moves);
         for (std::size_t o = 0; o < resting.size(); ++o) EXPECT_EQ(resting[o].particles.at, plain[o].particles.at);
+        moves += found.moves;
       }
+  EXPECT_GT(moves, 1000U);
 }
 
-/// Relaxes objects each of whose particles feels one particle of each other object.
-Relaxation relax_pulled(std::deque<Walker>& walkers, Relax run) {
+/// Relaxes objects of whose particles every n-th feels one particle of each other object.
+Relaxation relax_pulled(std::deque<Walker>& walkers, std::uint32_t n, Relax run) {
   const auto count = static_cast<std::uint32_t>(walkers.size());
   std::vector<std::vector<std::uint32_t>> near(count);
   std::vector<std::vector<Pull>> pulls(count);
@@ -457,7 +472,7 @@ Relaxation relax_pulled(std::deque<Walker>& walkers, Relax run) {
   std::vector<std::size_t> counts;
   for (std::uint32_t o = 0; o < count; ++o) {
     const auto particles = static_cast<std::uint32_t>(walkers[o].particles.at.size());
-    for (std::uint32_t p = 0; p < particles; ++p)
+    for (std::uint32_t p = 0; p < particles; p += n)
       for (std::uint32_t other = 0; other < count; ++other)
         if (other != o) pulls[o].push_back({.particle = p, .object = other, .by = (5 * p + o) % particles});
     for (std::uint32_t other = 0; other < count; ++other)
@@ -475,17 +490,49 @@ Relaxation relax_pulled(std::deque<Walker>& walkers, Relax run) {
 }
 
 TEST(Relaxation, leaves_particles_that_are_pulled_alone_and_ends_as_if_it_did_not) {
-  std::size_t moves = 0;
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    auto resting = crowd(seed, 1), plain = crowd(seed, 1);
-    const Relaxation found = relax_pulled(resting, relax_alone);
-    const Relaxation expected = relax_pulled(plain, relax_without_rest<Reader>);
-    EXPECT_EQ(found.iterations, expected.iterations);
-    EXPECT_EQ(found.moves, expected.moves);
-    for (std::size_t o = 0; o < resting.size(); ++o) EXPECT_EQ(resting[o].particles.at, plain[o].particles.at);
-    moves += found.moves;
+  for (const std::uint32_t n : {1U, 5U}) {
+    std::size_t moves = 0;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+      auto resting = crowd(seed, 1), plain = crowd(seed, 1);
+      const Relaxation found = relax_pulled(resting, n, relax_alone);
+      const Relaxation expected = relax_pulled(plain, n, relax_without_rest<Reader>);
+      EXPECT_EQ(found.iterations, expected.iterations);
+      EXPECT_EQ(found.moves, expected.moves);
+      for (std::size_t o = 0; o < resting.size(); ++o) EXPECT_EQ(resting[o].particles.at, plain[o].particles.at);
+      moves += found.moves;
+    }
+    EXPECT_GT(n * moves, 1000U);
   }
-  EXPECT_GT(moves, 1000U);
+}
+
+TEST(Relaxation, goes_on_while_a_tenth_of_those_move_that_are_pulled) {
+  // Of 40 particles in a row, each in a column of its own, three are drawn upwards.
+  constexpr std::uint32_t columns = 40, rows = 6;
+  std::vector<Region_index> labels;
+  std::vector<std::uint32_t> at;
+  for (std::uint32_t v = 0; v < columns * rows; ++v) labels.push_back(static_cast<Region_index>(v % columns));
+  for (std::uint32_t p = 0; p < columns; ++p) at.push_back(p);
+  Walker row(grid_points(columns, rows), grid_faces(columns, rows), labels, at, 20);
+  Post post({20, 1000, 0});
+  const std::vector<std::uint32_t> feels_post{1}, feels_row{0};
+  const std::vector<Pull> pulls{{2, 1, 0}, {20, 1, 0}, {39, 1, 0}}, none;
+  const std::vector<Walking_object<Reader>> objects{{.particles = &row.particles,
+                                                     .steps = &row.steps,
+                                                     .reader = &row.reader,
+                                                     .opponents = feels_post,
+                                                     .pulls = pulls},
+                                                    {.particles = &post.particles,
+                                                     .steps = &post.steps,
+                                                     .reader = &post.reader,
+                                                     .opponents = feels_row,
+                                                     .pulls = none}};
+  Relaxation_scratch scratch;
+  scratch.reserve(std::vector<std::size_t>{columns, 1});
+  const Relaxation result = relax(std::span<const Walking_object<Reader>>(objects), scratch);
+  EXPECT_TRUE(result.relaxed);
+  EXPECT_EQ(result.moves, 3 * (rows - 1));
+  EXPECT_EQ(result.iterations, rows);
+  for (const std::uint32_t p : {2U, 20U, 39U}) EXPECT_EQ(row.particles.at[p], p + (rows - 1) * columns);
 }
 
 }  // namespace

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "lodestone/mesh/errors.h"
+#include "lodestone/mesh/is_closed.h"
 #include "partition/lathe.h"
 #include "partition/partition_checks.h"
 #include "support/test_meshes.h"
@@ -17,6 +19,15 @@ namespace {
 std::vector<double> curvatures_of(const Surface_mesh& mesh, const Curvature_options& options = {}) {
   const Numbered_mesh numbered(mesh);
   return mean_curvatures({numbered.graph, numbered.positions, numbered.faces}, options);
+}
+
+/// Whether a surface is closed and its volume, relative to its extent, is more than rounding.
+bool encloses_volume(const Surface_soup& soup) {
+  if (!is_closed(static_cast<std::uint32_t>(soup.positions.rows()), soup.faces)) return false;
+  const Positions scaled = soup.positions / soup.positions.cwiseAbs().maxCoeff();
+  double volume = 0;
+  for (const auto& [a, b, c] : soup.faces) volume += scaled.row(a).dot(scaled.row(b).cross(scaled.row(c))) / 6;
+  return std::abs(volume) > 1e-9;
 }
 
 TEST(Curvature, of_a_sphere_is_1_over_its_radius) {
@@ -92,19 +103,27 @@ TEST(Curvature, is_0_where_there_is_nothing_to_fit) {
   for (const auto curvature : curvatures_of(mesh)) EXPECT_EQ(curvature, 0);
 }
 
-TEST(Curvature, is_finite_on_odd_surfaces) {
-  for (const auto& soup : odd_surfaces())
-    for (const auto curvature : mean_curvatures(soup.surface()))
-      if (soup.positions.cwiseAbs().maxCoeff() > 1e-150) {
-        EXPECT_TRUE(std::isfinite(curvature));
-      }
+TEST(Curvature, on_odd_surfaces_is_finite_and_somewhere_that_of_a_ball_around_them) {
+  std::size_t closed = 0;
+  for (const auto& soup : odd_surfaces()) {
+    const auto curvatures = mean_curvatures(soup.surface());
+    for (const auto curvature : curvatures) EXPECT_TRUE(std::isfinite(curvature));
+    if (!encloses_volume(soup)) continue;
+    ++closed;
+    // A closed surface touches the smallest ball around it from inside, and bends there at least as much: by 1 / r,
+    // with r at most sqrt(3) times the largest coordinate. The rest is left to the error of the fit.
+    const double extent = soup.positions.cwiseAbs().maxCoeff();
+    EXPECT_GT(std::ranges::max(curvatures) * extent, 0.9 / std::numbers::sqrt3) << extent;
+  }
+  EXPECT_GT(closed, 0U);
 }
 
 TEST(Curvature, a_hub_with_many_neighbours_is_fitted_to_some_of_them) {
-  // A cone of 3000 sides, with the slope 1: at the apex every direction bends.
+  // A cone of 3000 sides, with the slope 1: the paraboloid z = r^2 goes through the apex and the ring around it. Both
+  // its principal curvatures are 2 at the apex.
   const auto mesh = lathe({{0, 1}, {-1, 2}}, 3000, 1);
   const auto curvatures = curvatures_of(mesh, {.rings = 1});
-  EXPECT_TRUE(std::isfinite(curvatures[6000]));
+  EXPECT_NEAR(curvatures[6000], 2, 1e-6);
 }
 
 TEST(Curvature, around_a_hub_is_that_of_the_sphere_on_which_it_lies) {

@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "partition/islands_of.h"
 #include "support/test_meshes.h"
 
 namespace lodestone {
@@ -25,6 +26,16 @@ Labels strip_labels(Labels columns) {
   Labels labels = columns;
   labels.insert(labels.end(), columns.begin(), columns.end());
   return labels;
+}
+
+TEST(Islands_of, a_set_of_vertices_are_in_the_order_of_their_lowest_vertices_and_leave_the_buffer_clear) {
+  // Of two rows of six vertices: the columns 0, 2 and 5, and vertex 9 beside column 2.
+  const auto graph = grid_graph(6, 2);
+  std::vector<bool> open(12, false);
+  const std::vector<std::uint32_t> vertices{0, 2, 5, 6, 8, 9, 11};
+  const std::vector<std::vector<std::uint32_t>> expected{{0, 6}, {2, 8, 9}, {5, 11}};
+  EXPECT_EQ(islands_of(graph, vertices, open), expected);
+  EXPECT_EQ(open, std::vector<bool>(12, false));
 }
 
 TEST(Count_parts, counts_connected_sets_of_one_label) {

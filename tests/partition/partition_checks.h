@@ -49,7 +49,7 @@ void expect_odd_surfaces_labelled(const Strategy& strategy) {
       for (const auto label : labelling.labels) ASSERT_LT(label, vertices);
       EXPECT_EQ(strategy.label(soup.surface(), regions).labels, labelling.labels);
 
-      const auto result = finish_partition(soup.graph, soup.positions, soup.faces, labelling, {});
+      const auto result = finish_partition(soup.graph, soup.positions, soup.faces, labelling, regions, {});
       for (const auto& pieces : pieces_of(soup.graph, result.labels, result.regions)) EXPECT_LE(pieces.size(), 1U);
     }
   }

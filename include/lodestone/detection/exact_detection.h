@@ -401,7 +401,7 @@ bool Exact_detection<Volume>::collide_or_are_nearer(Object_pair pair, double dis
 template <Bounding_volume Volume>
 Busy Exact_detection<Volume>::start_frame(std::span<const Object_id> ids) {
   Busy busy = refresh(ids);
-  frame_.start(objects_.take_work());
+  frame_.start(objects_.work());
   before_ = objects_.work_on_demand(ids);
   return busy;
 }
@@ -410,7 +410,8 @@ Busy Exact_detection<Volume>::start_frame(std::span<const Object_id> ids) {
 template <Bounding_volume Volume>
 const Frame& Exact_detection<Volume>::finish_frame(std::span<const Object_id> ids) {
   Frame_statistics& statistics = frame_.statistics();
-  statistics.seconds.refit += objects_.take_work().seconds.refit;
+  statistics.seconds.refit = objects_.work().seconds.refit;
+  objects_.forget_work();
   const Frame_statistics now = objects_.work_on_demand(ids);
   statistics.vertices_read += now.vertices_read - before_.vertices_read;
   statistics.nodes_bounded += now.nodes_bounded - before_.nodes_bounded;

@@ -134,8 +134,10 @@ class Exact_objects {
 
   /// What has been bounded and posed so far of these objects, in their current poses.
   Frame_statistics work_on_demand(std::span<const Object_id> ids) const;
-  /// What has been done since the last call of this: times, builds, repartitions. Of the refits, only the last counts.
-  Frame_statistics take_work() { return std::exchange(work_, {}); }
+  /// What has been done since the last frame: times, builds, repartitions. Of the refits, only the last counts.
+  const Frame_statistics& work() const { return work_; }
+  /// A frame is over that has told this work. One that fails tells nothing, so the next one tells its work too.
+  void forget_work() { work_ = {}; }
 
  private:
   void start_on_demand(std::span<const Object_id> ids);

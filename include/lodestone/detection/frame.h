@@ -29,7 +29,7 @@ struct Stage_times {
   double refit = 0;         ///< mode exact: reading all positions, fitting all volumes
   double broad_phase = 0;   ///< reading the particles, or with meetings small objects and the anchors of regions;
                             ///< candidate object pairs
-  double relaxation = 0;    ///< particles walking as published
+  double relaxation = 0;    ///< particles walking
   double candidates = 0;    ///< as published: particle pairs below the collision distance
   double confirmation = 0;  ///< as published: exact checks of candidate regions. With meetings, and in modes exact and
                             ///< certified: the whole search of all pairs, and what was asked for about their contacts
@@ -102,7 +102,7 @@ struct Candidate_regions {
 
 /// Everything one frame brought. Pairs rejected by the broad phase are omitted.
 struct Frame {
-  std::uint64_t number = 0;        ///< 1 for the first
+  std::uint64_t number = 0;        ///< 1 for the first; frames that fail count too
   std::vector<Pair_result> pairs;  ///< by (a, b)
   /// Contacts of all pairs one after the other, sorted within a pair. With a tolerance those that intersect and those
   /// that are only near: see `intersects`.
@@ -122,8 +122,8 @@ struct Frame {
   /// `Pair_result::candidates` of each pair, one pair after the other, nearest first within a pair; empty unless asked
   /// for. Once a face pair has answered the query, the farther ones of its pair are not checked any more.
   std::vector<Candidate_regions> candidates = {};
-  /// Per object: iterations of the relaxation in which one of its particles looked at its steps; the others were at
-  /// rest. Empty if no particle walked.
+  /// Per object: iterations of the relaxation in which one of its particles looked at its steps. In the others all were
+  /// at rest, or known to swing between two vertices. Empty if no particle walked.
   std::vector<std::size_t> object_iterations = {};
   Frame_statistics statistics = {};  ///< what it took, and what it did
 

@@ -43,7 +43,7 @@ class Confirmation {
     std::uint32_t index;  ///< in the patch
   };
 
-  /// A face of the sweep, and the first face of the other patch that begins after it.
+  /// A face of the sweep, and the faces of the other patch that begin after it.
   struct Turn {
     const Boxed_face* face;
     std::span<const Boxed_face> ahead;

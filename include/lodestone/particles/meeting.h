@@ -14,7 +14,7 @@ struct Meeting {
   std::uint32_t b = 0;  ///< vertex of the second object
 };
 
-/// A meeting that has ended: neither particle can get nearer to the other by one step.
+/// A meeting that has ended: neither particle can get nearer to the other by one step, or the walk became too long.
 struct Ended_meeting {
   Meeting at;                     ///< where both are at the end
   double squared_distance = 0;    ///< of the two vertices, in squared units of the coordinates

@@ -140,7 +140,8 @@ Step best_step(const Walking_object<Reader>& object, std::size_t particle, const
     }
     for (std::size_t lane = 0; lane < count; ++lane) {
       pulled |= force[lane] != 0;
-      held |= reach[first + lane] == here && force[lane] == std::numeric_limits<double>::infinity();
+      // Not `==`: the push of a sibling in the same place makes it no number.
+      held |= reach[first + lane] == here && !(force[lane] < std::numeric_limits<double>::infinity());
       if (force[lane] > largest) {
         largest = force[lane];
         best = {.vertex = reach[first + lane], .position = {x[lane], y[lane], z[lane]}};
@@ -191,6 +192,16 @@ inline bool disturbs(const Moved_particles& moved, const Particles& movers, doub
   for (std::size_t i = 0; i < moved.which.size(); ++i)
     if (is_near(moved.from_there[i]) || is_near(movers.positions[moved.which[i]])) return true;
   return false;
+}
+
+/// The number of particles that can walk: all, or those that are pulled.
+template <Position_reader Reader>
+std::size_t count_walkers(const Walking_object<Reader>& object) {
+  if (!object.pulls) return object.particles->at.size();
+  const auto pulls = *object.pulls;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < pulls.size(); ++i) count += i == 0 || pulls[i].particle != pulls[i - 1].particle ? 1 : 0;
+  return count;
 }
 
 /// Counts the positions that a particle reads to choose its step.
@@ -360,7 +371,8 @@ void fit(Relaxation_scratch& scratch, std::span<const Walking_object<Reader>> ob
 /// where the force is largest. The force is the sum of 1 / r^2 over the particles of near objects at r < R_eff, eq.
 /// (10) to (12); R_eff is the larger of the two objects'. All particles read the positions from before the iteration.
 /// Ties go to the lowest vertex index. A particle stays if it feels no force, or if it is at r = 0. The particles are
-/// relaxed when fewer than R_min = N / 10 moved in each object; the paper has R_min "about ten times smaller than" N.
+/// relaxed when fewer than R_min = N / 10 moved in each object, or none; the paper has R_min "about ten times smaller
+/// than" N. If only some of the particles are pulled, N is the number of those: the others cannot move.
 /// R_max, the largest of the objects that have opponents, limits the iterations; see `hop_diameter`.
 ///
 /// Instead of all particles of near objects, a particle can feel those that `Walking_object::pulls` names.
@@ -397,7 +409,7 @@ Relaxation relax(std::span<const Walking_object<Reader>> objects, Relaxation_scr
       const std::size_t moving = internal::choose_steps(objects, o, scratch, workers);
       if (scratch.vertices_read > read) ++scratch.iterations[o];
       result.moves += moving;
-      result.relaxed &= 10 * moving < objects[o].particles->at.size();
+      result.relaxed &= moving == 0 || 10 * moving < internal::count_walkers(objects[o]);
     }
     bool swings = true;
     for (std::size_t o = 0; o < objects.size(); ++o) {

@@ -15,7 +15,8 @@ namespace lodestone {
 /// O(M N) distances, each of O(k) for k components.
 ///
 /// @param vectors  M x k, components below 1e100
-/// @param count    N; fewer are returned only if the vectors hold fewer than N different values
+/// @param count    N; fewer are returned only if the vectors hold fewer than N different values; those that differ by
+///                 less than 1e-150 may count as one
 /// @return row indices of different vectors, in the order of the draw
 std::vector<std::size_t> kmeans_plus_plus_start(const Feature_vectors& vectors, std::size_t count, std::uint64_t seed);
 

@@ -68,7 +68,8 @@ struct Quantisation {
 ///
 /// If N is not a power of two, the last split takes only the cells with the largest distortion. A cell that becomes
 /// empty is re-seeded from the cell of largest distortion, with the vector that is farthest from its code vector. Fewer
-/// than N cells are returned only if the vectors hold fewer than N different values.
+/// than N cells are returned only if the vectors hold fewer than N different values; those that differ by less than
+/// 1e-150 may count as one.
 ///
 /// Cost: an iteration with the plain search computes M N distances, with M the vectors that are trained on. In the
 /// paper's O(kMN), k is the number of iterations, not of components. In addition, the time of a distance grows linearly

@@ -49,8 +49,6 @@ struct Labelling {
   Feature_vectors vectors = {};            ///< V x k: the space in which particles are seeded; empty: position + normal
   std::size_t iterations = 0;              ///< of the strategy's main loop
   std::uint64_t distance_evaluations = 0;  ///< between a vector and a code vector; 0 without code vectors
-  std::size_t wanted = 0;  ///< number of regions that was wanted, from which the limit of `repair_islands` comes;
-                           ///< 0: the number of labels. `partition()` sets it
 };
 
 /// A partition strategy: a name, and one call operator that takes a mesh and returns a label per vertex. `partition()`
@@ -106,9 +104,10 @@ struct Partition {
 
 /// The steps that all strategies share: checks, repair, numbering of the regions, particles. Vertices without edges do
 /// not count for the vectors.
+/// @param wanted  number of regions that the strategy was asked for, from which the limit of `repair_islands` comes
 /// @throws Bad_argument  the number of labels or vectors is not V, or a label is not below V
 Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& positions,
-                                    std::span<const Corners> faces, Labelling labelling,
+                                    std::span<const Corners> faces, Labelling labelling, std::size_t wanted,
                                     const Partition_options& options);
 
 /// `partition()` on a mesh already numbered.
@@ -117,9 +116,8 @@ Numbered_partition partition_numbered(const Partition_input<Mesh>& input, std::s
                                       const Partition_options& options = {}) {
   if (regions == 0) throw Bad_argument("the number of regions must be at least 1");
   const auto wanted = std::min<std::size_t>(regions, input.numbering.vertex_count());
-  Labelling labelling = strategy(input, wanted);
-  labelling.wanted = wanted;
-  return finish_partition(input.graph, input.positions, input.numbering.corners(), std::move(labelling), options);
+  return finish_partition(input.graph, input.positions, input.numbering.corners(), strategy(input, wanted), wanted,
+                          options);
 }
 
 /// The same for a surface by index.
@@ -128,9 +126,8 @@ Numbered_partition partition_numbered(const Numbered_surface& surface, std::size
                                       const Partition_options& options = {}) {
   if (regions == 0) throw Bad_argument("the number of regions must be at least 1");
   const auto wanted = std::min<std::size_t>(regions, num_vertices(surface.graph));
-  Labelling labelling = strategy.label(surface, wanted);
-  labelling.wanted = wanted;
-  return finish_partition(surface.graph, surface.positions, surface.faces, std::move(labelling), options);
+  return finish_partition(surface.graph, surface.positions, surface.faces, strategy.label(surface, wanted), wanted,
+                          options);
 }
 
 /// Divides a surface into regions and places one particle in each.

@@ -128,6 +128,8 @@ void check_asset(const Json_value& root) {
   const auto version = asset.at("version").text();
   if (!version.starts_with("2."))
     asset.at("version").fail(fmt::format("expected 2.0, found {}", detail::as_json(version)));
+  if (const auto least = asset.find("minVersion"); least && least->text() != "2.0")
+    least->fail(fmt::format("expected 2.0, found {}", detail::as_json(least->text())));
   // An extension that affects positions must be supported; one that affects only appearance may be ignored.
   for (const auto& extension : root.list("extensionsRequired", most_elements)) {
     const auto name = extension.text();

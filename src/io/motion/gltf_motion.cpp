@@ -54,6 +54,10 @@ bool is_still(const Gltf_animation& animation) {
   return std::ranges::all_of(animation.curves, [](const auto& curve) { return curve.times.size() == 1; });
 }
 
+/// By how much the distance of two keys can change because their times are floats: two steps of floats at the last
+/// time.
+double rounding_of_floats(const Gltf_animation& animation) { return animation.seconds * 0x1p-22; }
+
 /// Keys that are no farther apart are one: of several curves the same key can differ by how its time was rounded. Far
 /// less than the keys of one curve are apart in the mean, however fast they follow each other.
 double rounding_of_keys(const Gltf_animation& animation) {
@@ -61,8 +65,7 @@ double rounding_of_keys(const Gltf_animation& animation) {
   for (const auto& curve : animation.curves)
     if (const std::size_t keys = curve.times.size(); keys > 1)
       least = std::min<double>(least, (curve.times.back() - curve.times.front()) / static_cast<double>(keys - 1));
-  const double of_floats = animation.seconds * 0x1p-22;  // two steps of the last time
-  return std::min(std::max(1e-5, of_floats), 0.1 * least);
+  return std::min(std::max(1e-5, rounding_of_floats(animation)), 0.1 * least);
 }
 
 /// Keys that follow each other at equal distances.
@@ -81,14 +84,17 @@ Uniform_keys uniform_keys(const Gltf_animation& animation) {
   std::ranges::unique_copy(all, std::back_inserter(times),
                            [&](double one, double other) { return other - one <= rounding; });
   if (times.size() < 2) return {};
-  const double step = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
-  if (step * fewest_keys_per_second > 1 + 1e-6) return {};
-  // Times are floats, and some exporters add up rounded steps: over thousands of them, times drift by whole frames.
+  const auto steps = static_cast<double>(times.size() - 1);
+  const double step = (times.back() - times.front()) / steps, of_floats = rounding_of_floats(animation);
+  // Some exporters add up rounded steps: over thousands of them, times drift by whole frames.
+  constexpr double drift = 1 + 1e-3;
+  if (step - of_floats / steps > drift / fewest_keys_per_second) return {};
+  const double most = std::max(0.01 * step, std::min(of_floats, 0.35 * step));
   for (std::size_t i = 1; i < times.size(); ++i)
-    if (std::abs(times[i] - times[i - 1] - step) > 0.01 * step) return {};
+    if (std::abs(times[i] - times[i - 1] - step) > most) return {};
   // The latest of those that are one: at the others, a curve with steps would still have the value before.
   for (double& time : times) time = *std::prev(std::ranges::upper_bound(all, time + rounding));
-  return {.times = std::move(times), .rate = rounded_rate(1 / step)};
+  return {.times = std::move(times), .rate = rounded_rate(1 / step, of_floats / (steps * step))};
 }
 
 std::size_t frames_of(const Gltf_scene& scene, const Gltf_animation& animation, double rate, double start,

@@ -5,11 +5,16 @@
 
 namespace lodestone {
 
-/// A rate with six digits: the others come from the rounding of times to floats.
-/// @param rate  > 0
-inline double rounded_rate(double rate) {
-  const double unit = std::pow(10, 5 - std::floor(std::log10(rate)));
-  const double rounded = std::round(rate * unit) / unit;
+/// A rate that follows from times that are floats: the shortest number that they leave possible, of at most six digits.
+/// @param rate      > 0
+/// @param rounding  by how much it may be wrong, relative to it
+inline double rounded_rate(double rate, double rounding) {
+  double rounded = rate;
+  for (int digits = 1; digits <= 6; ++digits) {
+    const double unit = std::pow(10, digits - 1 - std::floor(std::log10(rate)));
+    rounded = std::round(rate * unit) / unit;
+    if (std::abs(rounded - rate) <= rounding * rate) break;
+  }
   return std::isfinite(rounded) && rounded > 0 ? rounded : rate;
 }
 

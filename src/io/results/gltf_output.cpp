@@ -26,6 +26,9 @@ using Json = nlohmann::ordered_json;
 
 // The number of weights is quadratic in the number of frames, and graphics cards support 2048 texture layers.
 constexpr std::size_t most_gltf_frames = 2048;
+// By how much of the time between two frames the floats of their times may change it. Readers tell by these times
+// whether frames follow each other at equal distances.
+constexpr double most_rounding = 0.25;
 
 // Constants of the format.
 constexpr int unsigned_byte = 5121, unsigned_int = 5125, floats = 5126;
@@ -94,11 +97,13 @@ class Gltf_writer {
 void Gltf_writer::measure() {
   if (frames_.size() > most_gltf_frames)
     throw Bad_argument(fmt::format("glTF output has at most {} frames, found {}", most_gltf_frames, frames_.size()));
+  const double step = 1 / options_.frames_per_second;
   for (std::size_t frame = 1; frame < frames_.size(); ++frame)
-    if (!(frames_.time(frame) > frames_.time(frame - 1)) || !std::isfinite(frames_.time(frame)))
-      throw Bad_argument(fmt::format(
-          "glTF holds times as floats: frames {} and {} would be at {} and {} s, but must follow each other", frame - 1,
-          frame, frames_.time(frame - 1), frames_.time(frame)));
+    if (const double before = frames_.time(frame - 1), time = frames_.time(frame);
+        !(std::abs(time - before - step) <= most_rounding * step))
+      throw Bad_argument(
+          fmt::format("glTF holds times as floats: frames {} and {} would be at {} and {} s, but are {} s apart",
+                      frame - 1, frame, frames_.time(frame - 1), frames_.time(frame), step));
   ranges_.resize(frames_.size());
   for (std::size_t frame = 0; frame < frames_.size(); ++frame) {
     const auto found = frames_.floats(frame);

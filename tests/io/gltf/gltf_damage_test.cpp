@@ -251,6 +251,7 @@ TEST_F(Gltf_damage, values_of_the_wrong_kind_are_refused) {
   expect_error("/meshes/0/weights", {1}, "/meshes/0/weights: has 1 weights for 2 morph targets");
   expect_error("/extensionsRequired", {"KHR_draco_mesh_compression"}, "KHR_draco_mesh_compression\" is not supported");
   expect_error("/asset/version", "1.0", "/asset/version: expected 2.0");
+  expect_error("/asset/minVersion", "2.1", "/asset/minVersion: expected 2.0, found \"2.1\"");
   auto sample = square_gltf();
   const double infinite = std::numeric_limits<double>::infinity();
   sample.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] =

@@ -124,6 +124,31 @@ TEST_F(Animation_output, gltf_is_read_back_frame_by_frame_at_any_rate) {
     }
 }
 
+TEST_F(Animation_output, gltf_is_read_back_frame_by_frame_wherever_it_starts_or_refused) {
+  std::size_t refused = 0, read = 0;
+  for (const double start : {0.0, 4.2, 8.4, 100.7, 3600.1, 5000.1, 20000.1, 3e5})
+    for (const double rate : {5.0, 24.0, 30.0, 60.0, 120.0})
+      for (const std::size_t frames : {2U, 3U, 10U, 50U}) {
+        SCOPED_TRACE(testing::Message() << start << " " << rate << " " << frames);
+        square.motion.frames = frames;
+        const double step_of_floats = std::nextafter(static_cast<float>(start), 1e9F) - static_cast<float>(start);
+        try {
+          write_animation(folder.path() / "a.glb", square, {.frames_per_second = rate, .start = start});
+        } catch (const Bad_argument&) {
+          EXPECT_GT(step_of_floats * rate, 0.2);
+          ++refused;
+          continue;
+        }
+        const auto found = read_animation(folder.path() / "a.glb");
+        EXPECT_EQ(found.motion.frames, frames);
+        EXPECT_NEAR(found.frames_per_second, rate, rate * (1e-5 + rate * step_of_floats));
+        if (rate * step_of_floats < 1e-3) EXPECT_EQ(found.frames_per_second, rate);
+        ++read;
+      }
+  EXPECT_GT(refused, 8U);
+  EXPECT_GT(read, 100U);
+}
+
 TEST_F(Animation_output, point_caches_come_back_through_gltf_with_the_same_frames_and_rate) {
   for (const std::string cache : {"a.mdd", "a.pc2"})
     for (const double rate : {12.5, 24.0, 25.0, 60.0}) {
