@@ -151,7 +151,6 @@ TEST(Computed_points, that_fail_leave_it_to_the_next_frame_to_tell_what_was_buil
       const Frame& frame = detector.detect();
       EXPECT_EQ(frame.statistics.builds, 2U) << reads;
       EXPECT_GT(frame.statistics.seconds.build, 0) << reads;
-      EXPECT_EQ(frame.number, 2U);
     }
     EXPECT_GT(failures, 0U);
   }

@@ -102,7 +102,7 @@ struct Candidate_regions {
 
 /// Everything one frame brought. Pairs rejected by the broad phase are omitted.
 struct Frame {
-  std::uint64_t number = 0;        ///< 1 for the first; frames that fail count too
+  std::uint64_t number = 0;        ///< from 1 on; one that has failed can have taken a number
   std::vector<Pair_result> pairs;  ///< by (a, b)
   /// Contacts of all pairs one after the other, sorted within a pair. With a tolerance those that intersect and those
   /// that are only near: see `intersects`.

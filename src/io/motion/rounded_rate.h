@@ -11,8 +11,9 @@ namespace lodestone {
 inline double rounded_rate(double rate, double rounding) {
   double rounded = rate;
   for (int digits = 1; digits <= 6; ++digits) {
-    const double unit = std::pow(10, digits - 1 - std::floor(std::log10(rate)));
-    rounded = std::round(rate * unit) / unit;
+    const double places = digits - 1 - std::floor(std::log10(rate));
+    const double power = std::pow(10, std::abs(places));  // an integer, which is exact
+    rounded = places > 0 ? std::round(rate * power) / power : std::round(rate / power) * power;
     if (std::abs(rounded - rate) <= rounding * rate) break;
   }
   return std::isfinite(rounded) && rounded > 0 ? rounded : rate;
