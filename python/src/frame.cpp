@@ -222,7 +222,7 @@ void add_frame_class(py::module_& module) {
   py::class_<Python_frame>(module, "Frame", py::dynamic_attr(),
                            "What `Detector.detect` found. It stays as it is when the detector goes on.")
       .def_property_readonly("number", [](const Python_frame& self) { return self.frame->number; },
-                             "Number of the frame, from 1 on; one that has failed can have taken a number.")
+                             "Number of the frame: counts from 1, and skips numbers that failed frames have used.")
       .def_readonly("detector", &Python_frame::detector,
                     "The detector that found it; None: a function did, or the frame was pickled or copied.")
       .def_property_readonly("collides", [](const Python_frame& self) { return self.frame->collides(); },

@@ -111,7 +111,7 @@ Aabb Bounded_surface::box_from_bounds(std::uint32_t node) {
 }
 
 /// Whether a box, or a position, lies in the boxes of a node and of all nodes above it, where they are in use. A query
-/// can begin below the root, so boxes above need not be.
+/// can begin below the root, so the boxes above need not be in use.
 template <class Contained>
 bool Bounded_surface::lies_in_boxes_in_use(std::uint32_t node, const Contained& contained) const {
   const auto sticks_out = [&](std::uint32_t n) { return boxed_in_[n] == frame_ && !contains(boxes_[n], contained); };

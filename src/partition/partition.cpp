@@ -35,7 +35,7 @@ void check(const Labelling& labelling, std::size_t vertices) {
 }
 
 /// A strategy that gives more labels than any limit allows does not go by the wanted number; nor does its limit.
-std::size_t wanted_or_given(std::size_t wanted, std::size_t labels) {
+std::size_t wanted_for_limit(std::size_t wanted, std::size_t labels) {
   return labels > most_regions(wanted) ? labels : wanted;
 }
 
@@ -91,7 +91,7 @@ Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& 
   if (options.keep_islands)
     repair = {.regions = result.regions, .parts_before = count_parts(graph, result.labels)};
   else
-    repair = repair_islands(graph, result.labels, result.regions, wanted_or_given(wanted, result.regions));
+    repair = repair_islands(graph, result.labels, result.regions, wanted_for_limit(wanted, result.regions));
   result.regions = repair.regions;
 
   if (labelling.vectors.size() == 0) labelling.vectors = used_feature_vectors({graph, positions, faces});

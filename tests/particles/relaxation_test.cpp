@@ -501,7 +501,7 @@ TEST(Relaxation, leaves_particles_that_are_pulled_alone_and_ends_as_if_it_did_no
       for (std::size_t o = 0; o < resting.size(); ++o) EXPECT_EQ(resting[o].particles.at, plain[o].particles.at);
       moves += found.moves;
     }
-    EXPECT_GT(n * moves, 1000U);
+    EXPECT_GT(n * moves, 1000U);  // an n-th of the particles walks
   }
 }
 

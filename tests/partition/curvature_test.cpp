@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "lodestone/mesh/errors.h"
 #include "lodestone/mesh/is_closed.h"

@@ -120,7 +120,7 @@ TEST(Compared_reads, are_compared_with_boxes_above_that_were_made_later_than_tho
   }
 }
 
-TEST(Compared_reads, of_bounds_that_are_not_finite_have_all_vertices_read) {
+TEST(Compared_reads, that_are_not_finite_have_all_vertices_posed) {
   Arm a(long_potato(5, 1), false);
   a.pose(0.4, {0, 0, 0});
   const Reads reads{a.bound.node_count(), {std::numeric_limits<double>::quiet_NaN(), 0, 0}};

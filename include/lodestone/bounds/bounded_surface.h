@@ -186,7 +186,7 @@ class Bounded_surface {
   bool much_was_near_ = false;              ///< all vertices were posed because much was asked for
   std::size_t pause_ = 0, pause_left_ = 0;  ///< frames in which leaves are not posed one by one: planned, still to come
   std::vector<std::uint32_t> bounded_;      ///< nodes whose boxes come from bounds, in this frame
-  std::vector<Eigen::Vector3d> read_by_bounds_;  ///< positions of the node whose box is made
+  std::vector<Eigen::Vector3d> read_by_bounds_;  ///< by bounds, of the node whose box is being made
   std::vector<Leaf_vertex> component_vertices_;  ///< empty: not asked for yet
   std::size_t violations_ = 0, violations_settled_ = 0, nodes_bounded_ = 0, leaves_posed_ = 0, vertices_posed_ = 0;
 };

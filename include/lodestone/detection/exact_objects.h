@@ -136,7 +136,7 @@ class Exact_objects {
   Frame_statistics work_on_demand(std::span<const Object_id> ids) const;
   /// What has been done since the last frame: times, builds, repartitions. Of the refits, only the last counts.
   const Frame_statistics& work() const { return work_; }
-  /// A frame is over that has told this work. One that fails tells nothing, so the next one tells its work too.
+  /// Called when a frame has told this work. A frame that fails does not call it, so the next one tells its work too.
   void forget_work() { work_ = {}; }
 
  private:

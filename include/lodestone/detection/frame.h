@@ -102,7 +102,7 @@ struct Candidate_regions {
 
 /// Everything one frame brought. Pairs rejected by the broad phase are omitted.
 struct Frame {
-  std::uint64_t number = 0;        ///< from 1 on; one that has failed can have taken a number
+  std::uint64_t number = 0;        ///< counts from 1; skips numbers that failed frames have used
   std::vector<Pair_result> pairs;  ///< by (a, b)
   /// Contacts of all pairs one after the other, sorted within a pair. With a tolerance those that intersect and those
   /// that are only near: see `intersects`.

@@ -104,7 +104,8 @@ struct Partition {
 
 /// The steps that all strategies share: checks, repair, numbering of the regions, particles. Vertices without edges do
 /// not count for the vectors.
-/// @param wanted  number of regions that the strategy was asked for, from which the limit of `repair_islands` comes
+/// @param wanted  number of regions that the strategy was asked for, from which the limit of `repair_islands` comes; 0:
+///                the number of labels
 /// @throws Bad_argument  the number of labels or vectors is not V, or a label is not below V
 Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& positions,
                                     std::span<const Corners> faces, Labelling labelling, std::size_t wanted,

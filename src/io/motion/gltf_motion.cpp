@@ -54,10 +54,6 @@ bool is_still(const Gltf_animation& animation) {
   return std::ranges::all_of(animation.curves, [](const auto& curve) { return curve.times.size() == 1; });
 }
 
-/// By how much the distance of two keys can change because their times are floats: two steps of floats at the last
-/// time.
-double rounding_of_floats(const Gltf_animation& animation) { return animation.seconds * 0x1p-22; }
-
 /// Keys that are no farther apart are one: of several curves the same key can differ by how its time was rounded. Far
 /// less than the keys of one curve are apart in the mean, however fast they follow each other.
 double rounding_of_keys(const Gltf_animation& animation) {
@@ -65,7 +61,7 @@ double rounding_of_keys(const Gltf_animation& animation) {
   for (const auto& curve : animation.curves)
     if (const std::size_t keys = curve.times.size(); keys > 1)
       least = std::min<double>(least, (curve.times.back() - curve.times.front()) / static_cast<double>(keys - 1));
-  return std::min(std::max(1e-5, rounding_of_floats(animation)), 0.1 * least);
+  return std::min(std::max(1e-5, 4 * rounding_of_times(animation.seconds)), 0.1 * least);
 }
 
 /// Keys that follow each other at equal distances.
@@ -85,11 +81,14 @@ Uniform_keys uniform_keys(const Gltf_animation& animation) {
                            [&](double one, double other) { return other - one <= rounding; });
   if (times.size() < 2) return {};
   const auto steps = static_cast<double>(times.size() - 1);
-  const double step = (times.back() - times.front()) / steps, of_floats = rounding_of_floats(animation);
-  // Some exporters add up rounded steps: over thousands of them, times drift by whole frames.
+  const double step = (times.back() - times.front()) / steps, of_floats = rounding_of_times(animation.seconds);
+  // Some exporters add up rounded steps: over thousands of them, times drift by whole frames. So neighbours are
+  // compared, and the mean may be off by a thousandth.
   constexpr double drift = 1 + 1e-3;
   if (step - of_floats / steps > drift / fewest_keys_per_second) return {};
-  const double most = std::max(0.01 * step, std::min(of_floats, 0.35 * step));
+  // What the project writes has steps that floats have changed by up to a quarter. If the mean is a quarter too small,
+  // that is a third of it.
+  const double most = std::max(0.01 * step, std::min(2 * of_floats, 0.35 * step));
   for (std::size_t i = 1; i < times.size(); ++i)
     if (std::abs(times[i] - times[i - 1] - step) > most) return {};
   // The latest of those that are one: at the others, a curve with steps would still have the value before.

@@ -103,7 +103,7 @@ void read_mdd_times(std::ifstream& in, const fs::path& file, Point_cache& header
   if (frames == 1 && std::isfinite(ends[0])) header.start = ends[0];
   const double rate = static_cast<double>(frames - 1) / (ends[1] - ends[0]);
   if (!std::isfinite(rate) || !(rate > 0)) return;
-  const double of_floats = std::max(std::abs(ends[0]), std::abs(ends[1])) * 0x1p-22;  // two steps of the last time
+  const double of_floats = rounding_of_times(std::max(std::abs(ends[0]), std::abs(ends[1])));
   header.frames_per_second = rounded_rate(rate, of_floats / (ends[1] - ends[0]));
   header.start = ends[0];
 }

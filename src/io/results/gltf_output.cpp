@@ -26,8 +26,8 @@ using Json = nlohmann::ordered_json;
 
 // The number of weights is quadratic in the number of frames, and graphics cards support 2048 texture layers.
 constexpr std::size_t most_gltf_frames = 2048;
-// By how much of the time between two frames the floats of their times may change it. Readers tell by these times
-// whether frames follow each other at equal distances.
+// The largest change of the time between two frames by rounding to floats, as a share of that time. Beyond it readers,
+// `uniform_keys` too, may not see that frames follow each other at equal distances.
 constexpr double most_rounding = 0.25;
 
 // Constants of the format.
@@ -101,9 +101,9 @@ void Gltf_writer::measure() {
   for (std::size_t frame = 1; frame < frames_.size(); ++frame)
     if (const double before = frames_.time(frame - 1), time = frames_.time(frame);
         !(std::abs(time - before - step) <= most_rounding * step))
-      throw Bad_argument(
-          fmt::format("glTF holds times as floats: frames {} and {} would be at {} and {} s, but are {} s apart",
-                      frame - 1, frame, frames_.time(frame - 1), frames_.time(frame), step));
+      throw Bad_argument(fmt::format(
+          "glTF times are floats: frames {} and {} would be {} s apart, not {} s; the animation is too late", frame - 1,
+          frame, time - before, step));
   ranges_.resize(frames_.size());
   for (std::size_t frame = 0; frame < frames_.size(); ++frame) {
     const auto found = frames_.floats(frame);

@@ -40,7 +40,9 @@ double start_at(const Motion& motion, double frames_per_second);
 /// floats, other mesh files doubles.
 ///
 /// @throws Bad_motion    a frame is broken, a coordinate is too large for a float, or all of a frame are too small
-/// @throws Bad_argument  an extension not listed, no faces where the format needs them, too many frames for the format
+/// @throws Bad_argument  an extension not listed, no faces where the format needs them, too many frames for the format,
+///                       a rate or a start out of range, glTF that starts so late that floats change the time between
+///                       two frames by more than a quarter
 /// @throws Bad_output
 void write_animation(const std::filesystem::path& output, const Animation& animation,
                      const Animation_output_options& options = {});
