@@ -101,9 +101,9 @@ void Gltf_writer::measure() {
   for (std::size_t frame = 1; frame < frames_.size(); ++frame)
     if (const double before = frames_.time(frame - 1), time = frames_.time(frame);
         !(std::abs(time - before - step) <= most_rounding * step))
-      throw Bad_argument(fmt::format(
-          "glTF times are floats: frames {} and {} would be {} s apart, not {} s; the animation is too late", frame - 1,
-          frame, time - before, step));
+      throw Bad_argument(
+          fmt::format("glTF times are floats: frames {} and {} would be {} s apart, not {} s; it starts too late",
+                      frame - 1, frame, time - before, step));
   ranges_.resize(frames_.size());
   for (std::size_t frame = 0; frame < frames_.size(); ++frame) {
     const auto found = frames_.floats(frame);
