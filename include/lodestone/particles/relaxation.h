@@ -140,7 +140,7 @@ Step best_step(const Walking_object<Reader>& object, std::size_t particle, const
     }
     for (std::size_t lane = 0; lane < count; ++lane) {
       pulled |= force[lane] != 0;
-      // Not `== infinity`: where a sibling is in the same place too, it is infinity - infinity, no number.
+      // Not `== infinity`: where a sibling is in the same place too, the force is infinity - infinity, which is NaN.
       held |= reach[first + lane] == here && !(force[lane] < std::numeric_limits<double>::infinity());
       if (force[lane] > largest) {
         largest = force[lane];

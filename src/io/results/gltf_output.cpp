@@ -102,7 +102,7 @@ void Gltf_writer::measure() {
     if (const double before = frames_.time(frame - 1), time = frames_.time(frame);
         !(std::abs(time - before - step) <= most_rounding * step))
       throw Bad_argument(
-          fmt::format("glTF times are floats: frames {} and {} would be {} s apart, not {} s; it starts too late",
+          fmt::format("glTF times are floats, too coarse here: frames {} and {} would be {} s apart, not {} s",
                       frame - 1, frame, time - before, step));
   ranges_.resize(frames_.size());
   for (std::size_t frame = 0; frame < frames_.size(); ++frame) {
