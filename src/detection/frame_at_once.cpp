@@ -42,9 +42,13 @@ Contact_summary contacts_by_trees(const Faces_in_box& a, const Faces_in_box& b, 
 Contact_summary contacts_of(const Overlapping_surfaces& surfaces, const Detector_options& options,
                             std::vector<Face_pair>& found) {
   const auto& [box_a, box_b, a, b] = surfaces;
-  if (const auto contacts = Overlap_search().run(a, box_a, b, box_b, options.contacts, found)) return *contacts;
+  Overlap_search search;
+  if (const auto contacts = search.run(a, box_a, b, box_b, options.contacts, found)) return *contacts;
   found.clear();
-  return contacts_by_trees(a, b, options, found);
+  Contact_summary contacts = contacts_by_trees(a, b, options, found);
+  contacts.leaf_tests += search.leaf_tests();
+  contacts.exact_tests += search.exact_tests();
+  return contacts;
 }
 
 }  // namespace

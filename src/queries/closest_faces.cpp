@@ -14,6 +14,7 @@
 #include "lodestone/tree/node_pair.h"
 #include "lodestone/triangles/triangle_intersection.h"
 #include "lodestone/volumes/to_box.h"
+#include "triangles/triangle_box.h"
 
 namespace lodestone {
 
@@ -52,12 +53,6 @@ class Direction {
 
   Eigen::Vector3d origin_, along_;
 };
-
-Box box_of(const Triangle& triangle) {
-  Box box;
-  for (const Point& p : triangle) box.extend(coordinates(p));
-  return box;
-}
 
 /// The positions of a leaf's vertices.
 struct Leaf_positions {

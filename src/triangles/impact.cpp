@@ -9,6 +9,7 @@
 
 #include "triangles/exact_contacts.h"
 #include "triangles/impact_filter.h"
+#include "triangles/triangle_box.h"
 
 namespace lodestone {
 
@@ -132,10 +133,7 @@ std::strong_ordering operator<=>(const Impact_time& a, const Impact_time& b) {
 }
 
 Moving_box box_around(const Moving_triangle& moving) {
-  Moving_box box;
-  for (const Point& p : moving.start) box.start.extend(Eigen::Vector3d(p.x(), p.y(), p.z()));
-  for (const Point& p : moving.end) box.end.extend(Eigen::Vector3d(p.x(), p.y(), p.z()));
-  return box;
+  return {.start = box_of(moving.start), .end = box_of(moving.end)};
 }
 
 std::optional<Impact_time> first_impact(const Moving_triangle& a, const Moving_triangle& b, double latest) {

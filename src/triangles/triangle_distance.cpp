@@ -9,6 +9,7 @@
 
 #include "triangles/double_double.h"
 #include "triangles/nearest_points.h"
+#include "triangles/triangle_box.h"
 
 namespace lodestone {
 
@@ -245,12 +246,6 @@ Point point(const Triangle& t, const Triangle_point<double>& p) {
   return {mean(0), mean(1), mean(2)};
 }
 
-Box box(const Triangle& t) {
-  Box bounds;
-  for (const auto& corner : t) bounds.extend(Eigen::Vector3d(corner.x(), corner.y(), corner.z()));
-  return bounds;
-}
-
 /// upper - lower, rounded down. If it overflows, infinity.
 double difference_rounded_down(double upper, double lower) {
   const double gap = upper - lower, of_lower = upper - gap, of_upper = gap + of_lower;
@@ -308,7 +303,7 @@ bool corners_nearer_than(const Triangle_corners& a, const Triangle_corners& b, d
 bool triangles_nearer_than(const Triangle& a, const Triangle& b, double distance) {
   if (!(distance > 0)) return triangles_intersect(a, b);
   if (!std::isfinite(distance)) return true;
-  const Box box_a = box(a), box_b = box(b);
+  const Box box_a = box_of(a), box_b = box_of(b);
   if (distance_lower_bound(box_a, box_b) >= distance || apart_along_an_axis(box_a, box_b, distance)) return false;
   Estimate<double> estimate(a, b);
   if (estimate.proves_apart(distance)) return false;

@@ -27,7 +27,8 @@ namespace lodestone {
 ///
 /// O(F) where surfaces cross along a curve, or one contact is enough; at most O(F log F) steps of some nanoseconds
 /// before the filters. It gives up where boxes part little, as those of faces around one vertex: at most O(F) pairs of
-/// short lists go to the filters.
+/// short lists go to the filters. Where one contact is enough, a part of the overlap is searched first, and the search
+/// gives up too if boxes part little there.
 class Overlap_search {
  public:
   /// Appends the face pairs that intersect to `found`, sorted; none for the query `yes_no`, one for `first`.
@@ -36,6 +37,10 @@ class Overlap_search {
   /// @return none: it has given up, and what it appended is not all
   std::optional<Contact_summary> run(const Faces_in_box& a, const Box& box_a, const Faces_in_box& b, const Box& box_b,
                                      Contact_query query, std::vector<Face_pair>& found);
+
+  /// What the last run has tested, also one that gave up: pairs of short lists, and face pairs by exact predicates.
+  std::size_t leaf_tests() const { return leaf_tests_; }
+  std::size_t exact_tests() const { return exact_tests_; }
 
  private:
   /// Faces of one surface: so many from one place of its stack on, and the box around them.

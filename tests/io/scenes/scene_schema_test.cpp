@@ -327,8 +327,9 @@ TEST(Scene_schema, the_defaults_that_it_tells_are_those_of_the_reader) {
         Json told = plain;
         told[property] = about["default"];
         const bool is_shape = std::string_view(kind) == "shape";
-        const auto with = [&](const Json& given) {
-          return is_shape ? played({{name, given}}, plain_spin) : played(plain_shape, {{name, given}});
+        const auto with = [&, described_name = name](const Json& given) {
+          return is_shape ? played({{described_name, given}}, plain_spin)
+                          : played(plain_shape, {{described_name, given}});
         };
         EXPECT_EQ(with(told), with(plain)) << name << ' ' << property;
         ++defaults;
