@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "first_answer/contestant.h"
 
-#include <array>
+#include <boost/container/static_vector.hpp>
+#include <span>
 #include <utility>
 
 #include "lodestone/find_collisions.h"
@@ -36,14 +37,15 @@ class Detector_session : public Session {
   Detector<> detector_;
 };
 
-/// A library behind the interface of the experiment `peers`. It takes faces by index, so these are read from the meshes
+/// A library behind the interface of the experiment `peers`. Most take faces by index, so these are read from the meshes
 /// first: a program that starts from meshes has to do that too.
 class Peer_session : public Session {
  public:
-  Peer_session(std::unique_ptr<Peer> peer, const Surface_mesh& a, const Surface_mesh& b)
-      : numberings_{Mesh_numbering<Surface_mesh>(a), Mesh_numbering<Surface_mesh>(b)}, peer_(std::move(peer)) {
-    peer_->add({&a, numberings_[0].corners()});
-    peer_->add({&b, numberings_[1].corners()});
+  Peer_session(const Peer_kind& kind, const Surface_mesh& a, const Surface_mesh& b) : peer_(kind.make()) {
+    for (const Surface_mesh* mesh : {&a, &b}) {
+      if (!kind.takes_meshes) numberings_.emplace_back(*mesh);
+      peer_->add({mesh, kind.takes_meshes ? std::span<const Corners>() : numberings_.back().corners()});
+    }
   }
 
   void update() override {
@@ -53,7 +55,7 @@ class Peer_session : public Session {
   void all(std::vector<Face_pair>& found) override { peer_->all(0, 1, found); }
 
  private:
-  std::array<Mesh_numbering<Surface_mesh>, 2> numberings_;
+  boost::container::static_vector<Mesh_numbering<Surface_mesh>, 2> numberings_;
   std::unique_ptr<Peer> peer_;
 };
 
@@ -61,8 +63,9 @@ Once_contestant contestant_of(const Peer_kind& kind) {
   return {.library = kind.entry.library,
           .method = kind.entry.method + (kind.entry.library == "FCL" ? ", " + kind.entry.volume : ""),
           .reports_pairs = kind.entry.reports_pairs,
-          .begin = [make = kind.make](const Surface_mesh& a, const Surface_mesh& b, Contact_query)
-              -> std::unique_ptr<Session> { return std::make_unique<Peer_session>(make(), a, b); }};
+          .begin = [kind](const Surface_mesh& a, const Surface_mesh& b, Contact_query) -> std::unique_ptr<Session> {
+            return std::make_unique<Peer_session>(kind, a, b);
+          }};
 }
 
 }  // namespace

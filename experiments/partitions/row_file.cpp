@@ -65,7 +65,8 @@ Row_file::Row_file(std::filesystem::path file, Damage damage) : file_(std::move(
   descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail("cannot be opened");
   try {
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) fail("is in use by another sweep");
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0)
+      fail(errno == EWOULDBLOCK ? "is in use by another sweep" : "cannot be locked");
     const std::string text = content_of(file_);
     const std::size_t whole = damage == Damage::drop ? whole_rows(text) : whole_lines(text);
     rows_ = parsed(file_, std::string_view(text).substr(0, whole));

@@ -184,7 +184,8 @@ std::unique_ptr<Peer> make() {
 std::vector<Peer_kind> cgal_peers() {
   const std::string library = "CGAL", no_tree = "boxes, no tree";
   return {{.entry = {.library = library, .method = "PMP::do_intersect", .volume = no_tree, .reports_pairs = false},
-           .make = make<Do_intersect_peer>},
+           .make = make<Do_intersect_peer>,
+           .takes_meshes = true},
           {.entry = {.library = library, .method = "AABB_tree, rebuilt", .volume = "AABB"}, .make = make<Tree_peer>},
           {.entry = {.library = library, .method = "box_intersection_d, all faces", .volume = no_tree},
            .make = make<Boxes_peer<false>>},

@@ -101,8 +101,7 @@ void play(Loosening_motion& moving, std::span<Limit_figures> rows) {
     moving.motion.pose(frame, positions);
     for (const auto v : moving.mesh.vertices()) moving.mesh.point(v) = positions[v];
     std::vector<std::vector<Face_pair>> found(rows.size());
-    for (std::size_t turn = 0; turn < rows.size(); ++turn) {
-      const std::size_t r = (frame + turn) % rows.size();
+    for (const std::size_t r : order_of_turns(frame, rows.size())) {
       const Frame& result = detectors[r].detect();
       found[r] = result.face_pairs;
       rows[r].rebuilds += result.statistics.repartitions;

@@ -45,12 +45,13 @@ class Play {
 
   void play(std::size_t frame, Measured_run& run) {
     pose_all(frame);
-    const auto truth = find_truth(frame > 0 ? &run.exhaustive_seconds : nullptr);
+    const bool is_timed = frame > 0 || scene_.frames == 1;
+    const auto truth = find_truth(is_timed ? &run.exhaustive_seconds : nullptr);
     for (const std::size_t s : order_of_turns(frame, detectors_.size())) {
       detectors_[s].update();
       const Frame& answer = detectors_[s].detect();
       run.measurements[s].build_seconds += answer.statistics.seconds.build;
-      if (frame > 0) run.measurements[s].frames.push_back(answer.statistics);
+      if (is_timed) run.measurements[s].frames.push_back(answer.statistics);
       const auto collide = answers(answer, pairs_);
       for (std::size_t p = 0; p < pairs_.size(); ++p) scores_[s].add(pairs_[p], truth[p], collide[p]);
     }

@@ -40,7 +40,7 @@ std::vector<std::size_t> order_of_turns(std::size_t frame, std::size_t settings)
 
 /// Plays the scenes one after the other. In every frame exhaustive checking and all settings answer in turn.
 ///
-/// The first frame of a play is scored; of its times only `build` counts.
+/// The first frame of a play is scored; of its times only `build` counts, unless it is the only frame.
 ///
 /// @param progress  called after each frame with the frames done and the frames of all plays; may throw to stop
 Measured_run measure(std::span<Scene> scenes, std::span<const Setting> settings,

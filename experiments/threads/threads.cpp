@@ -14,6 +14,7 @@
 #include "program/installed_files.h"
 #include "program/measurement.h"
 #include "shared/experiment.h"
+#include "shared/measured_run.h"
 #include "threads/threaded_work.h"
 
 namespace lodestone {
@@ -58,10 +59,7 @@ Thread_figures measure(const Threaded_work& work, std::size_t triangles, std::sp
   std::vector<std::vector<double>> seconds(threads.size());
   for (std::size_t round = 0; round < work.rounds; ++round) {
     work.pose(1 + round);
-    for (std::size_t turn = 0; turn < workers.size(); ++turn) {
-      const std::size_t which = (round + turn) % workers.size();
-      seconds[which].push_back(workers[which]());
-    }
+    for (const std::size_t turn : order_of_turns(round, workers.size())) seconds[turn].push_back(workers[turn]());
   }
   Thread_figures figures{.work = work.name, .triangles = triangles, .seconds = {}};
   for (auto& times : seconds) figures.seconds.push_back(median(std::move(times)));

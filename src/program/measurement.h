@@ -33,6 +33,7 @@ struct Measurement {
   double build_seconds = 0;                   ///< of all objects, summed over all frames
 };
 
+/// The mean of the two in the middle if their number is even; 0 if there are none.
 double median(std::vector<double> values);
 /// Median over the frames of one time, such as `&Stage_times::relaxation`, in microseconds.
 double median_microseconds(const Measurement& measurement, double Stage_times::*stage);

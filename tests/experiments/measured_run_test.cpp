@@ -56,6 +56,22 @@ TEST(Measure, both_truths_give_the_same_scores) {
   EXPECT_EQ(by_all.measurements[0].score.accuracy(), 1);
 }
 
+TEST(Measure, the_only_frame_counts) {
+  Scene scene = diving_spheres();
+  scene.frames = 1;
+  const auto run = measured(scene, {});
+  EXPECT_EQ(run.exhaustive_seconds.size(), 1U);
+  for (const auto& measurement : run.measurements) EXPECT_EQ(measurement.frames.size(), 1U);
+}
+
+TEST(Median, of_an_even_number_is_between_the_two_in_the_middle) {
+  EXPECT_EQ(median({}), 0);
+  EXPECT_EQ(median({7}), 7);
+  EXPECT_EQ(median({9, 2}), 5.5);
+  EXPECT_EQ(median({9, 1, 2}), 2);
+  EXPECT_EQ(median({8, 1, 9, 2}), 5);
+}
+
 TEST(Measure, scores_every_frame_of_every_play) {
   Scene scene = diving_spheres();
   const auto once = measured(scene, {});

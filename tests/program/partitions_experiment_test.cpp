@@ -119,6 +119,24 @@ TEST_F(Partitions_experiment, shards_that_ran_separately_are_merged_to_the_rows_
   EXPECT_TRUE(files.contains("figures.json") && files.contains("partitions.md"));
 }
 
+TEST_F(Partitions_experiment, shards_of_another_revision_are_merged_but_not_made) {
+  expect_success(run_program(command("parts", {"--shard", "1/1"})));
+  const auto manifest_file = shard("manifest.json");
+  auto manifest = read_json(manifest_file);
+  manifest["revision"] = "0123456789ab";
+  std::vector<std::string> lines;
+  const auto record =
+      Shard_folder(folder.path() / "parts").read(1, [&](std::string_view line) { lines.emplace_back(line); });
+  std::ofstream(manifest_file) << manifest;
+  const Shard_folder of_another(folder.path() / "parts");
+  Shard_writer written(of_another, 1);
+  for (const auto& line : lines) written.add(line);
+  written.commit({{"processors", record["processors"]}});
+  expect_error(run_program(command("parts", {"--shard", "1/1"})), 2, "0123456789ab");
+  expect_success(merge());
+  EXPECT_EQ(read_json(folder.path() / "parts" / "manifest.json")["revision"], "0123456789ab");
+}
+
 TEST_F(Partitions_experiment, a_shard_that_is_killed_keeps_its_finished_runs) {
   const auto begun = shard("1-of-1.begun.jsonl");
   Running_program program(command("parts", {"--shard", "1/1"}));
@@ -264,12 +282,22 @@ TEST_F(Partitions_experiment, writing_the_meshes_leaves_the_report_of_an_earlier
   create_directories(folder.path() / "a");
   folder.write("a/partitions.md", "earlier");
   const auto meshes = (folder.path() / "meshes").string();
-  const auto written = run_program(command("a", {"--write-meshes", meshes}));
+  const std::vector<std::string> words{
+      "experiment", "partitions", "--out", (folder.path() / "a").string(), "--write-meshes", meshes};
+  const auto written = run_program(words);
   expect_success(written);
   EXPECT_EQ(written.out, "The meshes are in " + meshes + ". Nothing was measured.\n");
   EXPECT_EQ(content_of(folder.path() / "a"), std::set<std::string>{"partitions.md"});
   EXPECT_EQ(read_bytes(folder.path() / "a" / "partitions.md"), "earlier");
-  expect_error(run_program(command("a", {"--write-meshes", meshes, "--html", "page.html"})), 2, "--html");
+  for (const auto& [option, value] : std::vector<std::pair<std::string, std::string>>{{"--html", "page.html"},
+                                                                                      {"--only", "lbg"},
+                                                                                      {"--shard", "1/2"},
+                                                                                      {"--jobs", "2"},
+                                                                                      {"--strategy-file", "x"}}) {
+    auto more = words;
+    more.insert(more.end(), {option, value});
+    expect_error(run_program(more), 2, option);
+  }
 }
 
 TEST_F(Partitions_experiment, bad_options_are_refused_in_one_line) {
