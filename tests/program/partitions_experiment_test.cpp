@@ -121,13 +121,12 @@ TEST_F(Partitions_experiment, shards_that_ran_separately_are_merged_to_the_rows_
 
 TEST_F(Partitions_experiment, shards_of_another_revision_are_merged_but_not_made) {
   expect_success(run_program(command("parts", {"--shard", "1/1"})));
-  const auto manifest_file = shard("manifest.json");
-  auto manifest = read_json(manifest_file);
+  const Shard_folder made(folder.path() / "parts");
+  auto manifest = made.manifest();
   manifest["revision"] = "0123456789ab";
   std::vector<std::string> lines;
-  const auto record =
-      Shard_folder(folder.path() / "parts").read(1, [&](std::string_view line) { lines.emplace_back(line); });
-  std::ofstream(manifest_file) << manifest;
+  const auto record = made.read(1, [&](std::string_view line) { lines.emplace_back(line); });
+  std::ofstream(shard("manifest.json")) << manifest;
   const Shard_folder of_another(folder.path() / "parts");
   Shard_writer written(of_another, 1);
   for (const auto& line : lines) written.add(line);

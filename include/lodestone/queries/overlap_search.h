@@ -38,8 +38,9 @@ class Overlap_search {
   std::optional<Contact_summary> run(const Faces_in_box& a, const Box& box_a, const Faces_in_box& b, const Box& box_b,
                                      Contact_query query, std::vector<Face_pair>& found);
 
-  /// What the last run has tested, also one that gave up: pairs of short lists, and face pairs by exact predicates.
+  /// Pairs of short lists that the last run has tested, also one that gave up.
   std::size_t leaf_tests() const { return leaf_tests_; }
+  /// Face pairs that it has given to exact predicates.
   std::size_t exact_tests() const { return exact_tests_; }
 
  private:
