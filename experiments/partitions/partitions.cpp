@@ -51,7 +51,7 @@ std::string said_of(const std::vector<std::string>& failures) {
 /// Runs with other labels, or in another number, are other work.
 Sharded_experiment work_of(const std::vector<std::string>& ids) {
   auto inputs = partition_manifest();
-  for (const char* key : {"processors", "revision"}) inputs.erase(key);  // shards tell both themselves
+  for (const char* key : {"processors", "revision"}) inputs.erase(key);  // each shard records both
   const auto names = fmt::format("{}", fmt::join(ids, "\n"));
   inputs["runs"] = fmt::format("{:016x}", lodestone::hash_of(std::as_bytes(std::span<const char>(names))));
   return {.pieces = ids.size(), .neighbours = false, .inputs = std::move(inputs)};

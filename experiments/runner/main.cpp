@@ -99,7 +99,7 @@ void add_options(CLI::App& app, Experiment_command& command) {
   add_html(app, command.html, "One page (.html) with the report and plots of the figures")
       ->excludes("--write-meshes")
       ->excludes("--shard");
-  for (const char* option : {"--scenes", "--only", "--jobs", "--shard", "--seeds", "--strategy-file"})
+  for (const char* option : {"--scenes", "--only", "--jobs", "--shard", "--strategy-file"})
     app.get_option("--write-meshes")->excludes(option);
   app.add_flag("--quiet", command.quiet, "No progress bar, no report on the terminal");
   app.footer(list + "\n\n" + exit_code::help);

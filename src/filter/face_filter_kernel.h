@@ -15,7 +15,7 @@ namespace lodestone::kernel {
 /// A leaf as the kernel reads it.
 struct Leaf_input {
   const double* coordinates;      ///< of the mesh
-  const std::uint32_t* vertices;  ///< not empty, in any order, some perhaps twice; a vector of vertices more follows
+  const std::uint32_t* vertices;  ///< not empty, in any order, some perhaps twice; padded with a vector of vertices
   const Leaf_corners* corners;
   std::size_t vertex_count;
   std::size_t face_count;
