@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "first_answer/first_measure.h"
 #include "lodestone/io/results/text_table.h"
@@ -43,10 +44,7 @@ Chosen chosen(const std::vector<std::string>& only) {
   }
   if (chosen.kinds.empty()) chosen.kinds = once_kinds();
   if (chosen.sizes.empty()) std::ranges::copy_if(once_sizes(), std::back_inserter(chosen.sizes), &Once_size::published);
-  // What is too slow at one size is left out at larger ones.
-  std::ranges::sort(chosen.sizes, {}, &Once_size::triangles);
-  const auto repeated = std::ranges::unique(chosen.sizes, {}, &Once_size::triangles);
-  chosen.sizes.erase(repeated.begin(), repeated.end());
+  chosen.sizes = in_order(std::move(chosen.sizes));  // what is too slow at one size is left out at larger ones
   return chosen;
 }
 

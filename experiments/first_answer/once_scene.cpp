@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "first_answer/once_scene.h"
 
+#include <algorithm>
+
 #include "lodestone/io/shapes/shapes.h"
 
 namespace lodestone {
@@ -19,6 +21,13 @@ const std::vector<Once_kind>& once_kinds() {
 
 const std::vector<Once_size>& once_sizes() {
   static const std::vector<Once_size> sizes{{8, true}, {16, true}, {32, false}, {50, true}, {158, true}, {316, false}};
+  return sizes;
+}
+
+std::vector<Once_size> in_order(std::vector<Once_size> sizes) {
+  std::ranges::sort(sizes, {}, &Once_size::triangles);
+  const auto repeated = std::ranges::unique(sizes, {}, &Once_size::triangles);
+  sizes.erase(repeated.begin(), repeated.end());
   return sizes;
 }
 

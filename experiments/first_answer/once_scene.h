@@ -36,6 +36,8 @@ struct Once_size {
   std::size_t triangles() const { return 20 * frequency * frequency; }
 };
 const std::vector<Once_size>& once_sizes();
+/// Each size once, the smallest first.
+std::vector<Once_size> in_order(std::vector<Once_size> sizes);
 
 Once_scene make_once_scene(const Once_kind& kind, const Once_size& size);
 

@@ -67,6 +67,14 @@ TEST(First_answer, a_build_pays_from_the_frame_in_which_it_has_caught_up) {
   EXPECT_EQ((Once_times{.first = 5, .frame = 2}.of_frames(10)), 23);
 }
 
+TEST(First_answer, is_asked_at_each_size_once_and_at_the_smallest_first) {
+  const auto& sizes = once_sizes();
+  const auto ordered = in_order({sizes[1], sizes[0], sizes[1]});
+  ASSERT_EQ(ordered.size(), 2U);
+  EXPECT_EQ(ordered[0].triangles(), sizes[0].triangles());
+  EXPECT_EQ(ordered[1].triangles(), sizes[1].triangles());
+}
+
 TEST(First_answer, measures_every_question_that_a_contestant_answers) {
   const auto all = once_contestants();
   Once_scene scene = make_once_scene(once_kinds()[2], once_sizes().front());

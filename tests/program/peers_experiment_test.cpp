@@ -64,15 +64,6 @@ TEST_F(Peers_experiment, writes_the_cost_of_first_answers) {
                "far, beside, touching");
 }
 
-TEST_F(Peers_experiment, asks_about_each_size_once_and_the_smallest_first) {
-  expect_success(
-      run_program({"experiment", "first_answer", "--only", "far,5120,1280,5120", "--out", out.string(), "--quiet"}));
-  const auto figures = read_json(out / "first_answer.json");
-  ASSERT_EQ(figures.size(), 2U);
-  EXPECT_EQ(figures[0]["triangles"], 1280);
-  EXPECT_EQ(figures[1]["triangles"], 5120);
-}
-
 TEST_F(Peers_experiment, refuses_a_scene_that_does_not_exist) {
   expect_error(run("tiny,huge"), 3, "huge.json");
   EXPECT_EQ(content_of(out), std::set<std::string>{});
