@@ -6,6 +6,7 @@
 namespace lodestone {
 
 Collisions collisions_of(Frame frame) {
+  if (frame.pairs.empty()) return {.statistics = frame.statistics};
   return {.collides = frame.collides(),
           .near = frame.near(),
           .faces = std::move(frame.face_pairs),
@@ -13,8 +14,8 @@ Collisions collisions_of(Frame frame) {
           .points = std::move(frame.contact_points),
           .normals = std::move(frame.contact_normals),
           .capped = frame.capped(),
-          .containment = frame.pairs.empty() ? Containment::none : frame.pairs.front().containment,
-          .parting = frame.pairs.empty() ? std::nullopt : frame.pairs.front().parting,
+          .containment = frame.pairs.front().containment,
+          .parting = frame.pairs.front().parting,
           .patches = std::move(frame.patches),
           .unfinished = frame.unfinished(),
           .statistics = frame.statistics};

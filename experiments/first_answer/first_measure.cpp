@@ -10,7 +10,9 @@
 
 #include "lodestone/detector.h"
 #include "peers/peer.h"
+#include "program/measurement.h"
 #include "shared/lap_timer.h"
+#include "shared/measured_run.h"
 
 namespace lodestone {
 
@@ -65,7 +67,11 @@ class Asker {
       : contestant_(contestant), query_(query), scene_(scene) {}
 
   bool done() const { return spent_ > enough_seconds; }
-  const Once_times& times() const { return times_; }
+  /// None: it has not answered in a further frame.
+  std::optional<Once_times> times() const {
+    if (frames_.empty()) return std::nullopt;
+    return Once_times{.first = median(firsts_), .frame = median(frames_)};
+  }
 
   /// @return whether the answer is right
   /// @throws Gave_up
@@ -73,22 +79,18 @@ class Asker {
     const Lap_timer timer;
     const auto session = contestant_.begin(scene_.a, scene_.b, query_);
     ask(*session);
-    const double first = timer.seconds();
+    firsts_.push_back(timer.seconds());
+    spent_ += firsts_.back();
     const bool right = is_right(truth);
-    note(times_.first, first);
-    double frames = 0;
     const Kept_positions kept(scene_.b);
     for (std::size_t frame = 0; frame < frames_per_round; ++frame) {
       scene_.step();
-      Lap_timer lap;
+      const Lap_timer lap;
       session->update();
       ask(*session);
-      const double seconds = lap.seconds();
-      note(times_.frame, seconds);
-      frames += seconds;
+      frames_.push_back(lap.seconds());
+      spent_ += frames_.back();
     }
-    ++rounds_;
-    spent_ += first + frames;
     return right;
   }
 
@@ -105,17 +107,13 @@ class Asker {
     std::ranges::sort(found_);
     return std::ranges::equal(found_, truth);
   }
-  void note(double& least, double seconds) const {
-    least = rounds_ == 0 && least == 0 ? seconds : std::min(least, seconds);
-  }
 
   const Once_contestant& contestant_;
   Contact_query query_;
   Once_scene& scene_;
-  Once_times times_;
+  std::vector<double> firsts_, frames_;  // seconds
   std::vector<Face_pair> found_;
   bool any_ = false;
-  std::size_t rounds_ = 0;
   double spent_ = 0;
 };
 
@@ -126,18 +124,17 @@ void ask_all(Once_scene& scene, Contact_query query, std::span<const Face_pair> 
   std::vector<Asker> askers;
   for (const auto& f : figures) askers.emplace_back(*f.contestant, query, scene);
   for (std::size_t round = 0; round < most_rounds; ++round)
-    for (std::size_t turn = 0; turn < figures.size(); ++turn) {
-      const std::size_t i = (turn + round) % figures.size();
+    for (const std::size_t i : order_of_turns(round, figures.size())) {
       Once_figures& f = figures[i];
       const bool reported = query != Contact_query::all || f.contestant->reports_pairs;
       if (f.left_out || f.gave_up || !reported || askers[i].done()) continue;
       try {
         f.right &= askers[i].play_round(truth);
-        f.*times = askers[i].times();
       } catch (const Gave_up&) {
         f.gave_up = true;
       }
     }
+  for (std::size_t i = 0; i < figures.size(); ++i) figures[i].*times = askers[i].times();
 }
 
 }  // namespace

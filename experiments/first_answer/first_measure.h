@@ -13,8 +13,8 @@ namespace lodestone {
 
 /// Seconds of one question.
 struct Once_times {
-  double first = 0;  ///< from two meshes to the first answer: reading and building included; the least of all rounds
-  double frame = 0;  ///< one more frame: following the meshes and answering; the least
+  double first = 0;  ///< from two meshes to the first answer: reading and building included; the median of all rounds
+  double frame = 0;  ///< one more frame: following the meshes and answering; the median
 
   double of_frames(std::size_t frames) const { return first + static_cast<double>(frames - 1) * frame; }
 };

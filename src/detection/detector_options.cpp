@@ -2,7 +2,6 @@
 #include "lodestone/detection/detector_options.h"
 
 #include <cmath>
-#include <initializer_list>
 
 #include "lodestone/mesh/errors.h"
 
@@ -10,21 +9,20 @@ namespace lodestone {
 
 namespace {
 
-void require(bool holds, const char* requirement) {
-  if (!holds) throw Bad_argument(requirement);
+// Whoever asks once checks options that are not in the caches: what throws stands aside, so that the rest is short.
+[[noreturn, gnu::cold, gnu::noinline]] void throw_unmet(const char* requirement) { throw Bad_argument(requirement); }
+[[noreturn, gnu::cold, gnu::noinline]] void throw_of_other_mode(const char* name, const char* modes) {
+  throw Bad_argument(std::string(name) + " needs the mode " + modes);
 }
 
-/// An option that not every mode takes.
-struct Mode_option {
-  const char* name;
-  bool is_default;
-};
+void require(bool holds, const char* requirement) {
+  if (!holds) throw_unmet(requirement);
+}
 
-/// They would otherwise be ignored silently.
-/// @param modes  that take them
-void refuse(std::initializer_list<Mode_option> options, const char* modes) {
-  for (const auto& [name, is_default] : options)
-    if (!is_default) throw Bad_argument(std::string(name) + " needs the mode " + modes);
+/// Refuses an option that would otherwise be ignored silently.
+/// @param modes  that take it
+void refuse(const char* name, bool is_default, const char* modes) {
+  if (!is_default) throw_of_other_mode(name, modes);
 }
 
 /// Meetings decide without what the published method needs.
@@ -37,29 +35,30 @@ bool has_defaults_of_candidates(const Detector_options& options) {
 void refuse_options_of_other_modes(const Detector_options& options) {
   const Detector_options defaults;
   const Exact_options& exact = options.exact;
-  if (!finds_all(options.mode))
-    refuse({{"tolerance", exact.tolerance == 0},
-            {"self_tolerance", exact.self_tolerance == 0},
-            {"self_collision", !exact.self_collision},
-            {"containment", !exact.containment},
-            {"parting", !exact.parting},
-            {"patches", !exact.patches},
-            {"loosest", exact.loosest == defaults.exact.loosest}},
-           "exact or certified");
-  if (options.mode != Mode::certified) refuse({{"throw_if_broken", !exact.throw_if_broken}}, "certified");
-  if (finds_all(options.mode))
-    refuse({{"collision_distance", options.collision_distance == defaults.collision_distance},
-            {"distance_measure", options.distance_measure == defaults.distance_measure},
-            {"candidates", options.candidates == defaults.candidates},
-            {"close_seams", options.close_seams},
-            {"least_particles", options.least_particles == defaults.least_particles}},
-           "particles or senin");
-  if (options.mode != Mode::particles)
-    refuse({{"meetings", options.meetings == defaults.meetings},
-            {"opening_budget", options.opening_budget == defaults.opening_budget},
-            {"opening_reach", options.opening_reach == defaults.opening_reach},
-            {"growth", options.growth == defaults.growth}},
-           "particles");
+  if (finds_all(options.mode)) {
+    constexpr const char* with_particles = "particles or senin";
+    refuse("collision_distance", options.collision_distance == defaults.collision_distance, with_particles);
+    refuse("distance_measure", options.distance_measure == defaults.distance_measure, with_particles);
+    refuse("candidates", options.candidates == defaults.candidates, with_particles);
+    refuse("close_seams", options.close_seams, with_particles);
+    refuse("least_particles", options.least_particles == defaults.least_particles, with_particles);
+  } else {
+    constexpr const char* of_all = "exact or certified";
+    refuse("tolerance", exact.tolerance == 0, of_all);
+    refuse("self_tolerance", exact.self_tolerance == 0, of_all);
+    refuse("self_collision", !exact.self_collision, of_all);
+    refuse("containment", !exact.containment, of_all);
+    refuse("parting", !exact.parting, of_all);
+    refuse("patches", !exact.patches, of_all);
+    refuse("loosest", exact.loosest == defaults.exact.loosest, of_all);
+  }
+  if (options.mode != Mode::certified) refuse("throw_if_broken", !exact.throw_if_broken, "certified");
+  if (options.mode != Mode::particles) {
+    refuse("meetings", options.meetings == defaults.meetings, "particles");
+    refuse("opening_budget", options.opening_budget == defaults.opening_budget, "particles");
+    refuse("opening_reach", options.opening_reach == defaults.opening_reach, "particles");
+    refuse("growth", options.growth == defaults.growth, "particles");
+  }
 }
 
 }  // namespace

@@ -51,6 +51,30 @@ Contact_summary contacts_of(const Overlapping_surfaces& surfaces, const Detector
   return contacts;
 }
 
+/// Of surfaces whose boxes overlap.
+Frame contact_frame(const Overlapping_surfaces& surfaces, const Detector_options& options, double reading) {
+  Frame_builder builder(options);
+  builder.start();
+  builder.seconds().broad_phase = reading;
+  timed(builder.seconds().confirmation, [&] {
+    Pair_result result = builder.start_pair({0, 1});
+    const Contact_summary contacts = contacts_of(surfaces, options, builder.face_pairs());
+    result.collides = contacts.found;
+    count_tests(contacts, result, builder.statistics());
+    builder.end_pair(
+        result, [&](Object_id id, std::uint32_t face) { return triangle_in(id == 0 ? surfaces.a : surfaces.b, face); });
+  });
+  return builder.take();
+}
+
+/// Of surfaces whose boxes are apart: it has no pair.
+Frame frame_apart(double reading) {
+  Frame frame;
+  frame.number = 1;
+  frame.statistics.seconds.broad_phase = reading;
+  return frame;
+}
+
 }  // namespace
 
 bool can_answer_at_once(const Detector_options& options) {
@@ -64,20 +88,7 @@ bool can_answer_at_once(const Detector_options& options) {
 
 Frame overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options, double reading) {
   check_arithmetic();
-  const Box &box_a = surfaces.box_a, &box_b = surfaces.box_b;
-  const Faces_in_box &a = surfaces.a, &b = surfaces.b;
-  Frame_builder builder(options);
-  builder.start();
-  builder.seconds().broad_phase = reading;
-  if (!box_a.intersects(box_b)) return builder.take();
-  timed(builder.seconds().confirmation, [&] {
-    Pair_result result = builder.start_pair({0, 1});
-    const Contact_summary contacts = contacts_of(surfaces, options, builder.face_pairs());
-    result.collides = contacts.found;
-    count_tests(contacts, result, builder.statistics());
-    builder.end_pair(result, [&](Object_id id, std::uint32_t face) { return triangle_in(id == 0 ? a : b, face); });
-  });
-  return builder.take();
+  return surfaces.box_a.intersects(surfaces.box_b) ? contact_frame(surfaces, options, reading) : frame_apart(reading);
 }
 
 Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, const Detector_options& options) {
