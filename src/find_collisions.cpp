@@ -5,7 +5,7 @@
 
 namespace lodestone {
 
-Collisions collisions_of(Frame frame) {
+Collisions collisions_of(Frame&& frame) {
   if (frame.pairs.empty()) return {.statistics = frame.statistics};
   return {.collides = frame.collides(),
           .near = frame.near(),

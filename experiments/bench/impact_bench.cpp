@@ -4,12 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <random>
-#include <utility>
 #include <vector>
 
 #include "lodestone/io/shapes/shapes.h"

@@ -2,7 +2,6 @@
 // LBG with the bounded and with the plain nearest-code-vector search, on the same vectors, with equal labels.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <chrono>
 
 #include "lodestone/io/shapes/shapes.h"

@@ -6,8 +6,6 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <optional>
 #include <random>
 #include <span>

@@ -3,7 +3,6 @@
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <array>
 #include <random>
 #include <set>

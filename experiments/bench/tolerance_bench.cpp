@@ -2,7 +2,6 @@
 // Tolerances that are many faces wide, where nothing is nearer.
 #include <benchmark/benchmark.h>
 
-#include <cmath>
 #include <vector>
 
 #include "lodestone/detector.h"

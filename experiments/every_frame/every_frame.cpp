@@ -8,9 +8,10 @@
 #include <cmath>
 #include <deque>
 #include <filesystem>
-#include <iterator>
+#include <set>
 #include <utility>
 
+#include "every_frame/frame_check.h"
 #include "lodestone/bounds/displacement_bound.h"
 #include "lodestone/detector.h"
 #include "lodestone/io/results/text_table.h"
@@ -27,17 +28,6 @@
 namespace lodestone {
 
 namespace {
-
-/// What was checked of one scene; the counts are sums over the frames.
-struct Checked {
-  std::size_t frames = 0;
-  std::size_t pairs = 0;          ///< of objects
-  std::size_t intersecting = 0;   ///< of these
-  std::size_t face_pairs = 0;     ///< true ones
-  std::size_t wrong_answers = 0;  ///< of the modes that find all
-  std::size_t wrong_sets = 0;
-  std::size_t invented = 0;  ///< collisions and face pairs of the other modes that are none
-};
 
 Box bounds(const Surface_mesh& mesh) {
   const auto& points = mesh.points();
@@ -75,7 +65,7 @@ class Scene_check {
   void build() { answers_in(0); }
 
   /// Checks a frame. @return what was checked of it
-  Checked check(std::size_t frame) {
+  Frame_checks check(std::size_t frame) {
     checked_ = {.frames = 1};
     const auto answers = answers_in(frame);
     for (Object_id b = 0; b < scene_.objects.size(); ++b)
@@ -84,7 +74,8 @@ class Scene_check {
         ++checked_.pairs;
         checked_.intersecting += truth.empty() ? 0 : 1;
         checked_.face_pairs += truth.size();
-        for (std::size_t i = 0; i < answers.size(); ++i) compare(*answers[i], {a, b}, truth, options_[i]);
+        for (std::size_t i = 0; i < answers.size(); ++i)
+          compare_with_truth(*answers[i], {a, b}, truth, options_[i], checked_);
       }
     return checked_;
   }
@@ -114,42 +105,27 @@ class Scene_check {
     return answers;
   }
 
-  void compare(const Frame& answer, Object_pair pair, const std::vector<Face_pair>& truth,
-               const Detector_options& options) {
-    const auto listed =
-        std::ranges::find_if(answer.pairs, [&](const auto& p) { return p.a == pair.a && p.b == pair.b; });
-    const bool collides = listed != answer.pairs.end() && listed->collides;
-    const auto found = listed != answer.pairs.end() ? answer.contacts(*listed) : std::span<const Face_pair>();
-    if (!finds_all(options.mode)) {
-      std::vector<Face_pair> false_pairs;
-      std::ranges::set_difference(found, truth, std::back_inserter(false_pairs));
-      checked_.invented += false_pairs.size() + (collides && truth.empty() ? 1 : 0);
-      return;
-    }
-    checked_.wrong_answers += collides == truth.empty() ? 1 : 0;
-    if (options.contacts == Contact_query::all) checked_.wrong_sets += std::ranges::equal(found, truth) ? 0 : 1;
-  }
-
   Scene& scene_;
   std::deque<Displacement_promise> promises_;
   std::vector<Detector_options> options_;
   std::deque<Detector<>> detectors_;
-  Checked checked_;
+  Frame_checks checked_;
 };
 
 using Row = nlohmann::ordered_json;
 
-constexpr std::array<std::pair<const char*, std::size_t Checked::*>, 6> counts{
-    {{"object_pairs", &Checked::pairs},
-     {"intersecting", &Checked::intersecting},
-     {"face_pairs", &Checked::face_pairs},
-     {"wrong_answers", &Checked::wrong_answers},
-     {"wrong_sets", &Checked::wrong_sets},
-     {"invented", &Checked::invented}}};
+constexpr std::array<std::pair<const char*, std::size_t Frame_checks::*>, 6> counts{
+    {{"object_pairs", &Frame_checks::pairs},
+     {"intersecting", &Frame_checks::intersecting},
+     {"face_pairs", &Frame_checks::face_pairs},
+     {"wrong_answers", &Frame_checks::wrong_answers},
+     {"wrong_sets", &Frame_checks::wrong_sets},
+     {"invented", &Frame_checks::invented}}};
 
 /// A scene file, or a folder of real motion, and its place in the list of all frames.
 struct Scene_frames {
   std::filesystem::path source;
+  std::string name;  ///< that no other scene has
   std::size_t first = 0, count = 0;
 };
 
@@ -163,11 +139,13 @@ Plan plan_of(const Experiment_context& context) {
   Plan plan;
   std::vector<std::string> own;
   if (!context.scenes_given) own = scene_names(context);  // which refuses a folder without them
+  std::set<std::string> taken;
   for (const auto& source : chosen_sources(context, own)) {
     Scene scene = read_source(source);
-    plan.scenes.push_back({.source = source, .first = plan.work.pieces, .count = scene.frames});
+    const std::string name = untaken(scene.name, taken);
+    plan.scenes.push_back({.source = source, .name = name, .first = plan.work.pieces, .count = scene.frames});
     plan.work.pieces += scene.frames;
-    if (context.shard || context.merge_shards) plan.work.inputs[name_of_source(source)] = hash_of(scene);
+    if (context.shard || context.merge_shards) plan.work.inputs[name] = hash_of(scene);
   }
   return plan;
 }
@@ -175,7 +153,7 @@ Plan plan_of(const Experiment_context& context) {
 /// Plays those of the frames that belong to a scene, and adds a row for each.
 void check_scenes(const Experiment_context& context, const Plan& plan, const std::vector<std::size_t>& pieces,
                   const std::function<void(Row)>& add) {
-  for (const auto& [source, first, count] : plan.scenes) {
+  for (const auto& [source, name, first, count] : plan.scenes) {
     const auto begin = std::ranges::lower_bound(pieces, first), end = std::ranges::lower_bound(pieces, first + count);
     if (begin == end) continue;
     Scene scene = read_source(source);
@@ -183,19 +161,19 @@ void check_scenes(const Experiment_context& context, const Plan& plan, const std
     if (*begin > first) check.build();
     for (auto piece = begin; piece != end; ++piece) {
       context.progress(static_cast<std::size_t>(piece - pieces.begin()), pieces.size());
-      const Checked checked = check.check(*piece - first);
-      Row row{{"scene", scene.name}};
-      for (const auto& [name, figure] : counts) row[name] = checked.*figure;
+      const Frame_checks checked = check.check(*piece - first);
+      Row row{{"scene", name}};
+      for (const auto& [key, figure] : counts) row[key] = checked.*figure;
       add(std::move(row));
     }
   }
 }
 
 /// The sums over the frames of each scene, in the order of the scenes.
-std::vector<std::pair<std::string, Checked>> sums_of(const Plan& plan, const std::vector<Row>& rows) {
-  std::vector<std::pair<std::string, Checked>> sums;
+std::vector<std::pair<std::string, Frame_checks>> sums_of(const Plan& plan, const std::vector<Row>& rows) {
+  std::vector<std::pair<std::string, Frame_checks>> sums;
   for (const auto& scene : plan.scenes) {
-    auto& [name, sum] = sums.emplace_back(rows.at(scene.first).at("scene"), Checked{.frames = scene.count});
+    auto& [name, sum] = sums.emplace_back(scene.name, Frame_checks{.frames = scene.count});
     for (std::size_t frame = 0; frame < scene.count; ++frame)
       for (const auto& [key, figure] : counts) sum.*figure += rows.at(scene.first + frame).at(key).get<std::size_t>();
   }

@@ -3,7 +3,6 @@
 
 #include <boost/container/static_vector.hpp>
 #include <span>
-#include <utility>
 
 #include "lodestone/find_collisions.h"
 #include "peers/peer.h"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 #include <string>
 
 #include "lodestone/detector.h"
@@ -67,9 +68,9 @@ class Asker {
       : contestant_(contestant), query_(query), scene_(scene) {}
 
   bool done() const { return spent_ > enough_seconds; }
-  /// None: it has not answered in a further frame.
+  /// Of complete rounds. None: there is none.
   std::optional<Once_times> times() const {
-    if (frames_.empty()) return std::nullopt;
+    if (firsts_.empty()) return std::nullopt;
     return Once_times{.first = median(firsts_), .frame = median(frames_)};
   }
 
@@ -79,18 +80,12 @@ class Asker {
     const Lap_timer timer;
     const auto session = contestant_.begin(scene_.a, scene_.b, query_);
     ask(*session);
-    firsts_.push_back(timer.seconds());
-    spent_ += firsts_.back();
+    const double first = timer.seconds();
     const bool right = is_right(truth);
-    const Kept_positions kept(scene_.b);
-    for (std::size_t frame = 0; frame < frames_per_round; ++frame) {
-      scene_.step();
-      const Lap_timer lap;
-      session->update();
-      ask(*session);
-      frames_.push_back(lap.seconds());
-      spent_ += frames_.back();
-    }
+    const std::vector<double> frames = seconds_of_frames(*session);
+    firsts_.push_back(first);
+    frames_.insert(frames_.end(), frames.begin(), frames.end());
+    spent_ = std::accumulate(frames.begin(), frames.end(), spent_ + first);
     return right;
   }
 
@@ -101,6 +96,18 @@ class Asker {
       session.all(found_);
     else
       any_ = session.any();
+  }
+  std::vector<double> seconds_of_frames(Session& session) {
+    std::vector<double> seconds;
+    const Kept_positions kept(scene_.b);
+    for (std::size_t frame = 0; frame < frames_per_round; ++frame) {
+      scene_.step();
+      const Lap_timer lap;
+      session.update();
+      ask(session);
+      seconds.push_back(lap.seconds());
+    }
+    return seconds;
   }
   bool is_right(std::span<const Face_pair> truth) {
     if (query_ != Contact_query::all) return any_ == !truth.empty();

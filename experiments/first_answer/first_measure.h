@@ -22,7 +22,7 @@ struct Once_times {
 /// Figures of one contestant on one scene.
 struct Once_figures {
   const Once_contestant* contestant = nullptr;
-  std::optional<Once_times> any = {}, all = {};  ///< none: not reported, given up, or not asked
+  std::optional<Once_times> any = {}, all = {};  ///< none: not reported, not asked, or given up in the first round
   std::size_t peak_bytes = 0;                    ///< more resident memory than before, at most, for the first yes or no
   bool left_out = false;                         ///< was too slow in a smaller scene
   bool gave_up = false;

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <utility>
 #include <vector>
 
 #include "lodestone/io/shapes/shapes.h"

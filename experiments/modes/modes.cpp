@@ -64,13 +64,6 @@ Playable playable(const std::vector<std::filesystem::path>& sources, const std::
   return result;
 }
 
-/// The name, with a number if an earlier scene has it: rows and curves of two scenes must not mix.
-std::string untaken(const std::string& wanted, std::set<std::string>& taken) {
-  std::string name = wanted;
-  for (std::size_t use = 2; !taken.insert(name).second; ++use) name = fmt::format("{}_{}", wanted, use);
-  return name;
-}
-
 /// One row per setting; `exact` is the last setting.
 /// @param progress  called with the share of the work that is done
 std::vector<Mode_figures> play(Scene scene, std::span<const Setting> settings,

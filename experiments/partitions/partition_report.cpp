@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <set>
-#include <span>
 #include <tuple>
 #include <vector>
 

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include "lodestone/mesh/box.h"
 #include "peers/peer.h"

@@ -28,47 +28,60 @@ Page page_of(const Experiment& experiment, const std::filesystem::path& out, con
   return page;
 }
 
+std::filesystem::path own_scenes() { return installed_files() / "scenes"; }
+
+/// @throws Bad_scene  there is no such folder
+std::filesystem::path scenes_of(const Experiment_command& command) {
+  if (command.scenes.empty()) return own_scenes();
+  if (std::error_code unreadable; !is_directory(command.scenes, unreadable))
+    throw Bad_scene(fmt::format("{}: there is no such folder of scenes", command.scenes.string()));
+  return command.scenes;
+}
+
+std::string report_of(const Experiment& experiment, const Experiment_command& command,
+                      const std::filesystem::path& scenes, const std::filesystem::path& out) {
+  std::error_code unreadable;
+  Progress_bar bar(command.name, command.quiet);
+  return experiment.run({.scenes = scenes,
+                         .scenes_given = !equivalent(scenes, own_scenes(), unreadable),
+                         .out = out,
+                         .progress = std::ref(bar),
+                         .only = command.only,
+                         .shard = command.shard,
+                         .merge_shards = command.merge_shards,
+                         .words = command.words,
+                         .jobs = command.jobs,
+                         .seeds = command.seeds,
+                         .strategy_files = command.strategy_files,
+                         .write_meshes = command.write_meshes});
+}
+
+/// Notes that the shards have become the report, and the rows that belong to it.
+void note_merged(const std::filesystem::path& out, const std::string& report_file) {
+  std::vector<std::string> files{report_file};
+  for (const char* file : {"rows.jsonl", "manifest.json"})
+    if (exists(out / file)) files.emplace_back(file);
+  Shard_folder(out).note_merged(files);
+}
+
 }  // namespace
 
 int run(const Experiment_command& command) {
   const auto experiment = std::ranges::find_if(experiments(), [&](const auto& e) { return e.name == command.name; });
-  const auto own_scenes = installed_files() / "scenes";
-  const auto scenes = command.scenes.empty() ? own_scenes : command.scenes;
   const std::filesystem::path out = command.out.empty() ? std::filesystem::path("out") / command.name : command.out;
-  std::error_code unreadable;
-  if (!command.scenes.empty() && !is_directory(scenes, unreadable))
-    throw Bad_scene(fmt::format("{}: there is no such folder of scenes", command.scenes.string()));
+  const auto scenes = scenes_of(command);
   std::optional<Page_file> page;
   if (!command.html.empty()) page.emplace(command.html, out);
-  std::string report;
-  if (!command.shard && command.write_meshes.empty()) Shard_folder::note_replaced(out);
-  {
-    Progress_bar bar(command.name, command.quiet);
-    report = experiment->run({.scenes = scenes,
-                              .scenes_given = !equivalent(scenes, own_scenes, unreadable),
-                              .out = out,
-                              .progress = std::ref(bar),
-                              .only = command.only,
-                              .shard = command.shard,
-                              .merge_shards = command.merge_shards,
-                              .words = command.words,
-                              .jobs = command.jobs,
-                              .seeds = command.seeds,
-                              .strategy_files = command.strategy_files,
-                              .write_meshes = command.write_meshes});
-  }
-  if (!command.write_meshes.empty() || command.shard) {  // nothing to report: the report of an earlier run stays
+  const bool reports = !command.shard && command.write_meshes.empty();  // else the report of an earlier run stays
+  if (reports) Shard_folder::note_replaced(out);
+  const std::string report = report_of(*experiment, command, scenes, out);
+  if (!reports) {
     if (!command.quiet) fmt::print("{}", report);
     return exit_code::success;
   }
   const std::string report_file = command.name + ".md";
   write_whole(out / report_file, report);
-  if (command.merge_shards) {
-    std::vector<std::string> files{report_file};
-    for (const char* file : {"rows.jsonl", "manifest.json"})
-      if (exists(out / file)) files.emplace_back(file);
-    Shard_folder(out).note_merged(files);
-  }
+  if (command.merge_shards) note_merged(out, report_file);
   if (!command.quiet)
     fmt::print("{}\n{}\n\n{}", experiment->question, std::string(experiment->question.size(), '='), report);
   if (page) {  // after the report, which must not be lost to a plot that cannot be drawn

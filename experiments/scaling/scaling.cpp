@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <string_view>
 
 #include "lodestone/io/results/text_table.h"

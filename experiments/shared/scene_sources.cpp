@@ -8,7 +8,6 @@
 #include <array>
 #include <ranges>
 #include <string_view>
-#include <utility>
 
 #include "io/files/small_text.h"
 #include "lodestone/io/scenes/given_objects.h"
@@ -125,6 +124,12 @@ std::vector<fs::path> chosen_sources(const Experiment_context& context, std::spa
   std::vector<fs::path> sources;
   for (const auto& name : otherwise) sources.push_back(context.scenes / (name + ".json"));
   return sources;
+}
+
+std::string untaken(const std::string& wanted, std::set<std::string>& taken) {
+  std::string name = wanted;
+  for (std::size_t use = 2; !taken.insert(name).second; ++use) name = fmt::format("{}_{}", wanted, use);
+  return name;
 }
 
 std::string name_of_source(const fs::path& source) {

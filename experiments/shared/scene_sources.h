@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +37,10 @@ std::vector<std::filesystem::path> chosen_sources(const Experiment_context& cont
 
 /// What results call a source before it is read: the file's name without its extension, or the name of the folder.
 std::string name_of_source(const std::filesystem::path& source);
+
+/// The name, with a number if an earlier scene has it: rows and curves of two scenes must not mix.
+/// @param taken  names of scenes so far; has this one's afterwards
+std::string untaken(const std::string& wanted, std::set<std::string>& taken);
 
 /// Reads a scene file, or makes a scene of a folder of real motion. That scene has the name of the folder, and an
 /// object for each mesh `STEM.off` in the order of the stems; meshes without a point cache do not move. If the scene

@@ -2,8 +2,6 @@
 // The tables of one scene.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "lodestone/io/results/text_table.h"
 #include "shared/race_figures.h"
 #include "volumes/volume_cells.h"

@@ -32,7 +32,7 @@ struct Collisions {
 
 /// @cond  helpers
 /// What a frame says about its only pair.
-Collisions collisions_of(Frame frame);
+Collisions collisions_of(Frame&& frame);
 /// @endcond
 
 /// Finds collisions between two meshes, which may be of different types, with one call.
@@ -75,7 +75,7 @@ Collisions find_collisions(const Mesh_a& a, const Mesh_b& b, const Detector_opti
       return detector.add(mesh, vertex_points(mesh, np), {.name = name});
   };
   const Object_id first = add(a, np_a, "the first mesh"), second = add(b, np_b, "the second mesh");
-  return collisions_of(finds_all(options.mode) ? detector.detect(first, second) : detector.detect());
+  return collisions_of(Frame(finds_all(options.mode) ? detector.detect(first, second) : detector.detect()));
 }
 
 /// Finds the faces of one mesh that intersect each other, with one call. `Collisions::faces` are face pairs a < b.

@@ -5,7 +5,7 @@ import html
 import os
 import tempfile
 
-from ._lodestone import BadArgument, Frame, PageBase
+from ._lodestone import BadArgument, Frame, PageBase, Pair
 
 
 class Page(PageBase):
@@ -60,6 +60,9 @@ def page(frames, path=None, *, title="Lodestone", frames_per_second=30.0):
 
 
 def _check_has_detector(frame):
+    if not isinstance(frame, Frame):
+        hint = ": its frame is pair.frame" if isinstance(frame, Pair) else ""
+        raise TypeError(f"a page is made of frames, but got {type(frame).__name__}{hint}")
     if frame.detector is None:
         raise BadArgument("only a frame of a Detector can be shown")
 

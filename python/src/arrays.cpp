@@ -165,7 +165,7 @@ py::array_t<double, py::array::c_style> numbers_of(const py::object& numbers, co
 py::array_t<double, py::array::c_style> rows_of(const py::object& rows, const std::string& name) {
   auto array = numbers_of(rows, name);
   if (array.ndim() != 2 || array.shape(1) != 3)
-    throw Bad_argument(name + " must have the shape (n, 3), but have " + shape_of(array));
+    throw Bad_argument(name + " must have the shape (n, 3), but got " + shape_of(array));
   return array;
 }
 

@@ -80,6 +80,17 @@ void Python_object::exchange(std::unique_ptr<Live_vertices>& vertices, std::vect
   std::swap(faces_, faces);  // what spans refer to does not move
 }
 
+void Python_object::check_changed(std::span<const Corners> faces, std::span<const std::uint32_t> changed) const {
+  check_has_arrays();
+  const std::size_t common = std::min(faces.size(), faces_.size());
+  std::vector<bool> is_listed(common, false);
+  for (const std::uint32_t face : changed)
+    if (face < common) is_listed[face] = true;
+  for (std::size_t face = 0; face < common; ++face)
+    if (faces[face] != faces_[face] && !is_listed[face])
+      throw Bad_argument("face " + std::to_string(face) + " has other corners than before, but is not listed in changed");
+}
+
 void Python_object::set_frame(py::ssize_t number) {
   if (!animation_) throw Bad_argument("it has no animation");
   const auto frame = animation_->frame_of(number);
@@ -264,7 +275,10 @@ void Python_detector::rebuild(Object_id object, const py::object& vertices, cons
   if (!file_vertex.is_none()) doubled = naming_mesh(title, [&] { return indices_of(file_vertex, "file_vertex"); });
   if (!changed.is_none() && !file_vertex.is_none()) throw Bad_argument("give changed or file_vertex, not both");
   change([&](auto& detector) {
-    change_object(object, [&](auto& target) { target.exchange(given, corners); });
+    change_object(object, [&](auto& target) {
+      if (!changed.is_none()) target.check_changed(corners, changed_faces);
+      target.exchange(given, corners);
+    });
     try {
       if (changed.is_none())
         detector.rebuild(object, doubled);

@@ -42,6 +42,10 @@ class Python_object {
   /// @throws Bad_mesh, Bad_argument  it stays as it was
   void exchange(std::unique_ptr<Live_vertices>& vertices);
   void exchange(std::unique_ptr<Live_vertices>& vertices, std::vector<Corners>& faces);
+  /// Refuses a list of changed faces that is incomplete. Of the faces that were there and still are, those that are not
+  /// listed must have the same corners, in the same order.
+  /// @throws Bad_argument  names the first that has not; its positions are not in arrays
+  void check_changed(std::span<const Corners> faces, std::span<const std::uint32_t> changed) const;
   /// Poses an animation. -1: its last frame.
   /// @throws Bad_argument  there is no animation, or no such frame
   void set_frame(py::ssize_t number);

@@ -63,16 +63,24 @@ void load(Python_detector& self, Object_id object, const py::bytes& saved) {
   self.change([&](auto& detector) { detector.load(object, std::as_bytes(std::span(bytes))); });
 }
 
+[[noreturn]] void throw_not_divided(Object_id object, const std::string& what) {
+  throw Bad_argument("object " + std::to_string(object) + " has no " + what +
+                     " until the next detect: it is new, or has been rebuilt");
+}
+
 /// Regions of the vertices.
 py::object regions(Python_detector& self, Object_id object) {
-  return array_of<std::int64_t>(self.change([&](auto& detector) { return detector.regions(object); }));
+  const auto regions = self.change([&](auto& detector) { return detector.regions(object); });
+  if (regions.empty()) throw_not_divided(object, "regions");
+  return array_of<std::int64_t>(regions);
 }
 
 py::object particles(Python_detector& self, Object_id object) {
   if (finds_all(self.options().mode))
     throw Bad_argument("particles needs the mode particles or senin; modes exact and certified have no particles");
-  return array_of<std::int64_t>(
-      self.change([&](auto& detector) { return detector.object(object).particles().at; }));
+  const auto at = self.change([&](auto& detector) { return detector.object(object).particles().at; });
+  if (at.empty()) throw_not_divided(object, "particles");
+  return array_of<std::int64_t>(at);
 }
 
 /// What `with detector.hold_positions():` enters and leaves.
@@ -128,8 +136,10 @@ void add_objects(Detector_class& type) {
            "Places an object: from now on its vertices are at matrix * p, a rigid motion (4, 4).")
       .def("rebuild", &Python_detector::rebuild, py::arg("object"), py::arg("vertices"), py::arg("faces"), py::kw_only(),
            py::arg("changed") = py::none(), py::arg("file_vertex") = py::none(),
-           "Gives an object other faces. changed: the indices of those that are others than before, where they are known;\n"
-           "in mode 'exact' that saves most of the time.")
+           "Gives an object other faces. changed: the indices of those whose corners are others than before, or in another\n"
+           "order, where they are known; in mode 'exact' that saves most of the time. New faces at the end need not be listed.\n"
+           "file_vertex: as in `add`, for the new vertices. Without it no vertices are joined, even if some were.\n"
+           "Raises BadArgument: a face that has changed is not listed.")
       .def("ignore",
            [](Python_detector& self, Object_id a, Object_id b, bool ignored) {
              self.change([&](auto& detector) { detector.ignore(a, b, ignored); });
@@ -144,8 +154,10 @@ void add_objects(Detector_class& type) {
       .def("__len__", [](Python_detector& self) { return self.look([](auto& detector) { return detector.size(); }); },
            "Number of objects added, removed ones included.")
       .def("__repr__", &Python_detector::text)
-      .def("__contains__", [](Python_detector& self, Object_id object) {
-        return self.look([&](auto& detector) { return detector.has(object); });
+      .def("__contains__", [](Python_detector& self, const py::object& object) {
+        py::detail::make_caster<Object_id> id;
+        if (!id.load(object, true)) return false;  // no integer, or out of range
+        return self.look([&](auto& detector) { return detector.has(py::detail::cast_op<Object_id>(id)); });
       }, py::arg("object"), "Whether there is an object with this id.");
 }
 
@@ -189,9 +201,10 @@ void add_built(Detector_class& type) {
       .def("save", save, py::arg("object"), "What has been built of an object, as bytes for `load`.")
       .def("load", load, py::arg("object"), py::arg("saved"),
            "Takes what was saved of an object with the same faces, in place of building it.")
-      .def("regions", regions, py::arg("object"), "The region of each vertex: (V,) int64. After the first `detect`.")
+      .def("regions", regions, py::arg("object"), "The region of each vertex: (V,) int64.\nRaises BadArgument: no `detect` since the object was added or rebuilt.")
       .def("particles", particles, py::arg("object"),
-           "The vertex of each particle: (particles,) int64. Modes 'particles' and 'senin', after the first `detect`.");
+           "The vertex of each particle: (particles,) int64. Modes 'particles' and 'senin'.\nRaises BadArgument: no "
+           "`detect` since the object was added or rebuilt.");
 }
 
 }  // namespace

@@ -122,29 +122,47 @@ py::dict options_of(const Python_scene& scene, std::size_t object) {
   return all;
 }
 
-/// The frames of an animation to be written, as doubles.
-std::vector<std::vector<double>> frames_of(const py::object& frames) {
-  std::vector<std::vector<double>> all;
+using Frames = std::vector<std::vector<double>>;
+
+/// The vertices of a mesh or of a frame to be written, as doubles.
+/// @param frame  its name; empty: they are the only ones
+std::vector<double> coordinates_of(const py::object& vertices, const std::string& frame = {}) {
+  const auto rows = rows_of(vertices, frame.empty() ? "vertices" : frame);
+  std::vector<double> coordinates(rows.data(), rows.data() + rows.size());
+  check_finite(coordinates, frame);
+  return coordinates;
+}
+
+/// The frames of an animation to be written.
+Frames frames_of(const py::object& frames) {
+  Frames all;
   for (const auto& frame : frames) {
-    const auto rows = rows_of(py::reinterpret_borrow<py::object>(frame), "a frame");
-    all.emplace_back(rows.data(), rows.data() + rows.size());
+    const std::string name = "frame " + std::to_string(all.size());
+    all.push_back(coordinates_of(py::reinterpret_borrow<py::object>(frame), name));
     if (all.back().size() != all.front().size())
-      throw Bad_argument("frame " + std::to_string(all.size() - 1) + " has another number of vertices than frame 0");
-    check_finite(all.back(), "frame " + std::to_string(all.size() - 1));
+      throw Bad_argument(name + " has another number of vertices than frame 0");
   }
   if (all.empty()) throw Bad_argument("there are no frames");
   return all;
 }
 
-void write(const Path& path, const py::object& frames, const py::object& faces,
+/// Faces of these vertices; None: no faces.
+std::vector<Corners> written_faces(const py::object& faces, std::size_t vertices) {
+  if (faces.is_none()) return {};
+  auto all = faces_of(faces);
+  for (std::size_t face = 0; face < all.size(); ++face)
+    for (const auto corner : all[face])
+      if (corner >= vertices)
+        throw Bad_mesh("face " + std::to_string(face) + " refers to vertex " + std::to_string(corner) + " of " +
+                       std::to_string(vertices));
+  return all;
+}
+
+void write(const Path& path, const Frames& coordinates, const py::object& faces,
            const Animation_output_options& options) {
   Animation animation{.kind = "array"};
-  const auto coordinates = frames_of(frames);
   animation.vertices = coordinates.front().size() / 3;
-  if (!faces.is_none()) animation.faces = faces_of(faces);
-  for (const auto& corners : animation.faces)
-    for (const auto corner : corners)
-      if (corner >= animation.vertices) throw Bad_mesh("a face refers to vertex " + std::to_string(corner));
+  animation.faces = naming_mesh(path.string(), [&] { return written_faces(faces, animation.vertices); });
   animation.motion.frames = coordinates.size();
   animation.motion.pose = [&coordinates](std::size_t frame, std::span<Point> positions) {
     for (std::size_t v = 0; v < positions.size(); ++v) {
@@ -161,12 +179,13 @@ void write_animation_file(const Path& path, const py::object& frames, const py::
                           std::optional<double> frames_per_second) {
   // Those of an Animation, unless the caller gives others.
   const py::object given = faces.is_none() ? py::getattr(frames, "faces", py::none()) : faces;
+  const Frames coordinates = naming_mesh(path.string(), [&] { return frames_of(frames); });
   if (!py::isinstance<Python_animation>(frames))
-    return write(path, frames, given, {.frames_per_second = frames_per_second.value_or(usual_rate)});
+    return write(path, coordinates, given, {.frames_per_second = frames_per_second.value_or(usual_rate)});
   const Animation& read = *frames.cast<const Python_animation&>().animation;
   const double rate = frames_per_second.value_or(read.frames_per_second > 0 ? read.frames_per_second : usual_rate);
   const bool is_positive = rate > 0 && std::isfinite(rate);  // write_animation refuses others
-  write(path, frames, given,
+  write(path, coordinates, given,
         {.frames_per_second = rate, .start = is_positive ? start_at(read.motion, rate) : 0});
 }
 
@@ -174,7 +193,8 @@ void write_mesh_file(const Path& path, const py::object& mesh, const py::object&
   const auto given = given_mesh(mesh, faces, "mesh");
   if (const auto kind = lower_case(path.extension().string()); kind == ".pc2" || kind == ".mdd")
     throw Bad_argument(path.string() + ": a point cache has no faces: write it by write_animation");
-  write(path, py::make_tuple(given.vertices), given.faces, {.numbered = false});
+  const Frames only{naming_mesh(path.string(), [&] { return coordinates_of(given.vertices); })};
+  write(path, only, given.faces, {.numbered = false});
 }
 
 }  // namespace

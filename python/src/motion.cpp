@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 #include "arrays.h"
 #include "lodestone/mesh/errors.h"

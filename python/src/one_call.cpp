@@ -68,14 +68,16 @@ py::object first_impact(const py::object& a, const py::object& end_a, const py::
       ask_about(a, b, 1, [&](auto& detector) { return detector.first_impact(0, at_end_a, 1, at_end_b); }));
 }
 
-py::object first_self_impact(const py::object& mesh, const py::object& end) {
+py::object first_self_impact(const py::object& mesh, const py::object& end, const py::object& file_vertex) {
   const Positions at_end = positions_of(end, "end");
   const Asked_mesh asked(mesh, py::none(), "mesh");
+  Object_options options;
+  if (!file_vertex.is_none()) options.file_vertex = indices_of(file_vertex, "file_vertex");
   std::optional<Impact> found;
   {
     const Without_gil without_gil;
     Detector<Any_strategy> detector;
-    detector.add(asked.mesh);
+    detector.add(asked.mesh, options);
     found = detector.first_self_impact(0, at_end);
   }
   return impact_fields(found);
@@ -135,9 +137,11 @@ void add_one_call(py::module_& module) {
   module.def("first_impact", first_impact, py::arg("a"), py::arg("end_a"), py::arg("b"), py::arg("end_b"),
              "When two meshes first meet if every vertex moves on a straight line, from where it is at t = 0 to the row of\n"
              "end_a or end_b, arrays (V, 3), at t = 1: a dict with time, faces and point; None if they do not. Exact.");
-  module.def("first_self_impact", first_self_impact, py::arg("mesh"), py::arg("end"),
+  module.def("first_self_impact", first_self_impact, py::arg("mesh"), py::arg("end"), py::kw_only(),
+             py::arg("file_vertex") = py::none(),
              "When two faces of one mesh that share no vertex first meet on the way to end, an array (V, 3): a dict with\n"
-             "time, faces and point; None if they do not. Exact.");
+             "time, faces and point; None if they do not. Exact.\n\n"
+             "file_vertex: (V,) int; vertices with the same number are one, as in `self_collisions`.");
   module.def("within", within, py::arg("a"), py::arg("b"), py::arg("distance"), py::kw_only(), py::arg("threads") = 1,
              "Whether two meshes are nearer to each other than a distance, or collide. Exact.");
   module.def("contains", contains, py::arg("outer"), py::arg("inner"), py::kw_only(), py::arg("threads") = 1,

@@ -2,7 +2,6 @@
 #include "bounds/landmark_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <utility>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/bounds/node_regions.h"
 
-#include <algorithm>
 #include <cstdint>
 
 namespace lodestone {

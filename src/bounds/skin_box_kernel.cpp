@@ -62,13 +62,14 @@ HWY_INLINE Position_vector move(const double* columns, std::size_t k, Moved_rang
 
 /// max sum_j w_j M_j along the axes of vector `k`: the weight that is not yet given away goes to the greatest ends
 /// first. Overwrites the ends.
-/// @param end   M_j of a joint
-/// @param rest  per axis: what the least weights leave of 1
+/// @param end          M_j of a joint
+/// @param free_weight  per axis: what the least weights leave of 1
 template <class End>
-HWY_INLINE Position_vector greatest_mean(const Skinned_node& node, const double* rest, std::size_t k, const End& end) {
+HWY_INLINE Position_vector greatest_mean(const Skinned_node& node, const double* free_weight, std::size_t k,
+                                         const End& end) {
   const Position_lanes d;
   const auto nothing = hn::Zero(d);
-  auto sum = nothing, left = load(rest, k), greatest = nothing;
+  auto sum = nothing, left = load(free_weight, k), greatest = nothing;
   for (std::size_t j = 0; j < node.joint_count; ++j)
     sum = hn::Add(sum, hn::Mul(hn::Set(d, node.ranges[j].least), load(end(j), k)));
   for (std::size_t turn = 0; turn < node.joint_count && !hn::AllFalse(d, hn::Gt(left, nothing)); ++turn) {
@@ -99,9 +100,9 @@ Aabb skin_box_kernel(const Skinned_node& node, Moved_range* moved) {
   const auto infinite = hn::Inf(d);
   const auto count = static_cast<double>(node.joint_count + node.most_influences);
   double reach[3] = {0, 0, 0};
-  double rest[4] = {1, 1, 1, 0};  // nothing is to be given away in the fourth lane
+  double free_weight[4] = {1, 1, 1, 0};  // nothing is to be given away in the fourth lane
   for (std::size_t j = 0; j < node.joint_count; ++j) {
-    for (int axis = 0; axis < 3; ++axis) rest[axis] -= node.ranges[j].least;
+    for (int axis = 0; axis < 3; ++axis) free_weight[axis] -= node.ranges[j].least;
     widen(node.shift, node.ranges[j], moved[j]);
     for (int axis = 0; axis < 3; ++axis)
       reach[axis] = reach[axis] > moved[j].reach[axis] ? reach[axis] : moved[j].reach[axis];
@@ -116,8 +117,8 @@ Aabb skin_box_kernel(const Skinned_node& node, Moved_range* moved) {
       magnitude = hn::IfThenElse(hn::Lt(of_joint, infinite), hn::Max(magnitude, of_joint), infinite);
     }
     const auto margin = hn::Add(hn::Mul(hn::Set(d, (16 * count + 64) * 0x1p-53), magnitude), hn::Set(d, underflow));
-    const auto high = greatest_mean(node, rest, k, [&](std::size_t j) { return moved[j].high; });
-    const auto mirrored_low = greatest_mean(node, rest, k, [&](std::size_t j) { return moved[j].low; });
+    const auto high = greatest_mean(node, free_weight, k, [&](std::size_t j) { return moved[j].high; });
+    const auto mirrored_low = greatest_mean(node, free_weight, k, [&](std::size_t j) { return moved[j].low; });
     const auto is_finite = hn::Lt(magnitude, infinite);
     store(hn::IfThenElse(is_finite, hn::Add(high, margin), infinite), box.high, k);
     store(hn::Neg(hn::IfThenElse(is_finite, hn::Add(mirrored_low, margin), infinite)), box.low, k);

@@ -9,7 +9,7 @@ namespace lodestone {
 
 namespace {
 
-// Whoever asks once checks options that are not in the caches: what throws stands aside, so that the rest is short.
+// One call runs this code with cold caches: what throws is kept out of line, so that the usual path is short.
 [[noreturn, gnu::cold, gnu::noinline]] void throw_unmet(const char* requirement) { throw Bad_argument(requirement); }
 [[noreturn, gnu::cold, gnu::noinline]] void throw_of_other_mode(const char* name, const char* modes) {
   throw Bad_argument(std::string(name) + " needs the mode " + modes);
@@ -35,14 +35,7 @@ bool has_defaults_of_candidates(const Detector_options& options) {
 void refuse_options_of_other_modes(const Detector_options& options) {
   const Detector_options defaults;
   const Exact_options& exact = options.exact;
-  if (finds_all(options.mode)) {
-    constexpr const char* with_particles = "particles or senin";
-    refuse("collision_distance", options.collision_distance == defaults.collision_distance, with_particles);
-    refuse("distance_measure", options.distance_measure == defaults.distance_measure, with_particles);
-    refuse("candidates", options.candidates == defaults.candidates, with_particles);
-    refuse("close_seams", options.close_seams, with_particles);
-    refuse("least_particles", options.least_particles == defaults.least_particles, with_particles);
-  } else {
+  if (!finds_all(options.mode)) {
     constexpr const char* of_all = "exact or certified";
     refuse("tolerance", exact.tolerance == 0, of_all);
     refuse("self_tolerance", exact.self_tolerance == 0, of_all);
@@ -53,6 +46,14 @@ void refuse_options_of_other_modes(const Detector_options& options) {
     refuse("loosest", exact.loosest == defaults.exact.loosest, of_all);
   }
   if (options.mode != Mode::certified) refuse("throw_if_broken", !exact.throw_if_broken, "certified");
+  if (finds_all(options.mode)) {
+    constexpr const char* with_particles = "particles or senin";
+    refuse("collision_distance", options.collision_distance == defaults.collision_distance, with_particles);
+    refuse("distance_measure", options.distance_measure == defaults.distance_measure, with_particles);
+    refuse("candidates", options.candidates == defaults.candidates, with_particles);
+    refuse("close_seams", options.close_seams, with_particles);
+    refuse("least_particles", options.least_particles == defaults.least_particles, with_particles);
+  }
   if (options.mode != Mode::particles) {
     refuse("meetings", options.meetings == defaults.meetings, "particles");
     refuse("opening_budget", options.opening_budget == defaults.opening_budget, "particles");

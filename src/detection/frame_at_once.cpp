@@ -52,10 +52,9 @@ Contact_summary contacts_of(const Overlapping_surfaces& surfaces, const Detector
 }
 
 /// Of surfaces whose boxes overlap.
-Frame contact_frame(const Overlapping_surfaces& surfaces, const Detector_options& options, double reading) {
+Frame contact_frame(const Overlapping_surfaces& surfaces, const Detector_options& options) {
   Frame_builder builder(options);
   builder.start();
-  builder.seconds().broad_phase = reading;
   timed(builder.seconds().confirmation, [&] {
     Pair_result result = builder.start_pair({0, 1});
     const Contact_summary contacts = contacts_of(surfaces, options, builder.face_pairs());
@@ -65,14 +64,6 @@ Frame contact_frame(const Overlapping_surfaces& surfaces, const Detector_options
         result, [&](Object_id id, std::uint32_t face) { return triangle_in(id == 0 ? surfaces.a : surfaces.b, face); });
   });
   return builder.take();
-}
-
-/// Of surfaces whose boxes are apart: it has no pair.
-Frame frame_apart(double reading) {
-  Frame frame;
-  frame.number = 1;
-  frame.statistics.seconds.broad_phase = reading;
-  return frame;
 }
 
 }  // namespace
@@ -86,9 +77,12 @@ bool can_answer_at_once(const Detector_options& options) {
          !exact.patches && !limited;
 }
 
-Frame overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options, double reading) {
+void make_overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options, double reading,
+                        Frame& frame) {
   check_arithmetic();
-  return surfaces.box_a.intersects(surfaces.box_b) ? contact_frame(surfaces, options, reading) : frame_apart(reading);
+  if (surfaces.box_a.intersects(surfaces.box_b)) frame = contact_frame(surfaces, options);
+  frame.number = 1;
+  frame.statistics.seconds.broad_phase = reading;
 }
 
 Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, const Detector_options& options) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/detection/frame_builder.h"
 
-#include <algorithm>
-
 #include "lodestone/triangles/triangle_distance.h"
 
 namespace lodestone {

@@ -49,10 +49,13 @@ class Box_of_positions {
       hn::Store(zero_[v], d, zeros + v * double_lanes);
     }
     double zero = 0;
-    for (std::size_t i = 0; i < 3 * double_lanes; ++i) {
-      low[i % 3] = std::min(low[i % 3], lowest[i]);
-      high[i % 3] = std::max(high[i % 3], highest[i]);
-      zero += zeros[i];
+    HWY_UNROLL(1)  // the first call waits for each cache line of its code
+    for (std::size_t i = 0; i < 3 * double_lanes; i += 3) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], lowest[i + axis]);
+        high[axis] = std::max(high[axis], highest[i + axis]);
+        zero += zeros[i + axis];
+      }
     }
     return zero;
   }
@@ -68,10 +71,13 @@ bool bound_positions_kernel(const double* coordinates, std::size_t positions, do
   std::fill_n(low, 3, std::numeric_limits<double>::infinity());
   std::fill_n(high, 3, -std::numeric_limits<double>::infinity());
   double zero = box.extend(low, high);
-  for (std::size_t i = 3 * position; i < 3 * positions; ++i) {
-    low[i % 3] = std::min(low[i % 3], coordinates[i]);
-    high[i % 3] = std::max(high[i % 3], coordinates[i]);
-    zero += 0 * coordinates[i];
+  HWY_UNROLL(1)  // as above
+  for (const double* p = coordinates + 3 * position; p != coordinates + 3 * positions; p += 3) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+      zero += 0 * p[axis];
+    }
   }
   return zero == 0;
 }

@@ -2,7 +2,6 @@
 #include "partition/assignment_kernel.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE

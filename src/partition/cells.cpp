@@ -16,7 +16,7 @@ std::vector<double> cell_distortions(const Assignment& assignment) {
 
 }  // namespace
 
-bool reseed_empty_cells(const Feature_vectors& vectors, Feature_vectors& codes, Assignment& assignment) {
+bool refill_empty_cells(const Feature_vectors& vectors, Feature_vectors& codes, Assignment& assignment) {
   auto& sizes = assignment.cell_sizes;
   if (std::ranges::find(sizes, 0U) == sizes.end()) return false;
   auto distortions = cell_distortions(assignment);

@@ -14,7 +14,7 @@ namespace lodestone {
 /// @param vectors  M x k
 /// @param codes    N x k
 /// @return whether a cell was empty
-bool reseed_empty_cells(const Feature_vectors& vectors, Feature_vectors& codes, Assignment& assignment);
+bool refill_empty_cells(const Feature_vectors& vectors, Feature_vectors& codes, Assignment& assignment);
 
 /// Moves each code vector to the mean of its cell, \cite saenghaengtham2006, eq. (7). Those of empty cells stay.
 void move_codes_to_means(const Assignment& assignment, Feature_vectors& codes);

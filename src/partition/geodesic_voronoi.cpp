@@ -21,14 +21,14 @@ Geodesic_voronoi::Geodesic_voronoi(const Vertex_graph& graph, const Positions& p
 }
 
 void Geodesic_voronoi::clear() {
-  reaches_.assign(num_vertices(graph_), {});
+  nearest_.assign(num_vertices(graph_), {});
   is_seed_.assign(num_vertices(graph_), false);
   seeds_.clear();
 }
 
 bool Geodesic_voronoi::shortens(const Edge& edge) const {
   const std::uint32_t end = target(edge, graph_);
-  return !is_seed_[end] && reaches_[source(edge, graph_)].after(length(edge)) < reaches_[end];
+  return !is_seed_[end] && nearest_[source(edge, graph_)].after(length(edge)) < nearest_[end];
 }
 
 void Geodesic_voronoi::add(std::span<const std::uint32_t> vertices) {
@@ -36,7 +36,7 @@ void Geodesic_voronoi::add(std::span<const std::uint32_t> vertices) {
     if (v >= num_vertices(graph_)) throw Bad_argument("there is no vertex " + std::to_string(v) + " to be a seed");
     if (is_seed_[v]) throw Bad_argument("vertex " + std::to_string(v) + " is a seed already");
     is_seed_[v] = true;
-    reaches_[v] = {.distance = 0, .seed = static_cast<Region_index>(seeds_.size())};
+    nearest_[v] = {.distance = 0, .seed = static_cast<Region_index>(seeds_.size())};
     seeds_.push_back(v);
   }
 
@@ -45,14 +45,14 @@ void Geodesic_voronoi::add(std::span<const std::uint32_t> vertices) {
   const auto index = get(boost::vertex_index, graph_);
   boost::dijkstra_shortest_paths_no_init(
       shortening, vertices.begin(), vertices.end(), boost::dummy_property_map(),
-      boost::make_iterator_property_map(reaches_.begin(), index),
+      boost::make_iterator_property_map(nearest_.begin(), index),
       boost::make_function_property_map<Edge>([this](const Edge& edge) { return length(edge); }), index,
-      std::less<Reach>(), [](const Reach& reach, double length) { return reach.after(length); },
-      Reach{.distance = 0, .seed = 0}, boost::dijkstra_visitor<>());
+      std::less<Seed_distance>(), [](const Seed_distance& nearest, double length) { return nearest.after(length); },
+      Seed_distance{.distance = 0, .seed = 0}, boost::dijkstra_visitor<>());
 }
 
 std::vector<Region_index> Geodesic_voronoi::labels() const {
-  std::vector<Region_index> labels(reaches_.size());
+  std::vector<Region_index> labels(nearest_.size());
   for (std::uint32_t v = 0; v < labels.size(); ++v)
     labels[v] = nearest_seed(v) == no_seed ? nearest_in_a_straight_line(v) : nearest_seed(v);
   return labels;

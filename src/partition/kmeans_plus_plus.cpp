@@ -2,7 +2,6 @@
 #include "lodestone/partition/kmeans_plus_plus.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <random>

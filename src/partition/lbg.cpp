@@ -48,7 +48,7 @@ void label_all(const Feature_vectors& vectors, const Lbg_options& options, Quant
     Bounded_assignment(vectors, workers).assign(codes, assignment);
   else
     assign_plain(vectors, codes, assignment, workers);
-  reseed_empty_cells(vectors, codes, assignment);
+  refill_empty_cells(vectors, codes, assignment);
   move_codes_to_means(assignment, codes);
   trained.labels = std::move(assignment.labels);
   trained.distance_evaluations += assignment.distance_evaluations;

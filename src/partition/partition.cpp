@@ -48,7 +48,7 @@ Feature_vectors used_feature_vectors(const Numbered_surface& surface) {
 /// The vertex of each region that is nearest to the region's mean vector. Ties go to the lowest index. Vertices without
 /// edges are skipped. V distances, each of O(k) for k components.
 /// @param vectors  V x k
-std::vector<std::uint32_t> seed_particles(const Vertex_graph& graph, const Feature_vectors& vectors,
+std::vector<std::uint32_t> start_vertices(const Vertex_graph& graph, const Feature_vectors& vectors,
                                           const std::vector<Region_index>& labels, std::size_t regions) {
   Feature_vectors means = Feature_vectors::Zero(static_cast<Eigen::Index>(regions), vectors.cols());
   std::vector<std::size_t> sizes(regions, 0);
@@ -95,7 +95,7 @@ Numbered_partition finish_partition(const Vertex_graph& graph, const Positions& 
   result.regions = repair.regions;
 
   if (labelling.vectors.size() == 0) labelling.vectors = used_feature_vectors({graph, positions, faces});
-  result.particles = seed_particles(graph, labelling.vectors, result.labels, result.regions);
+  result.particles = start_vertices(graph, labelling.vectors, result.labels, result.regions);
   return result;
 }
 

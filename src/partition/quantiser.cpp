@@ -65,7 +65,7 @@ void Quantiser::run_lloyd() {
   Lloyd_run run{.code_vectors = size(), .distortion = {}};
   for (std::size_t iteration = 0; iteration < options_.max_iterations; ++iteration) {
     assign();
-    if (reseed_empty_cells(vectors_, codes_, assignment_) && bounded_) bounded_->forget();
+    if (refill_empty_cells(vectors_, codes_, assignment_) && bounded_) bounded_->forget();
     run.distortion.push_back(distortion());
     move_codes_to_means(assignment_, codes_);
     if (iteration == 0) continue;

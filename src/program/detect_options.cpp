@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program/detect_options.h"
 
-#include <cstdint>
 #include <limits>
 
 #include "lodestone/mesh/errors.h"

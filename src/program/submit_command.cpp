@@ -53,6 +53,23 @@ struct Ended_program {
   int status = 0;      ///< as of `waitpid`
 };
 
+/// One end of a pipe, closed at the end of its life at the latest.
+class Pipe_end {
+ public:
+  explicit Pipe_end(int descriptor) : descriptor_(descriptor) {}
+  ~Pipe_end() { close(); }
+  Pipe_end(const Pipe_end&) = delete;
+  Pipe_end& operator=(const Pipe_end&) = delete;
+
+  int descriptor() const { return descriptor_; }
+  void close() {
+    if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+  }
+
+ private:
+  int descriptor_;
+};
+
 /// All that comes out of a pipe.
 /// @throws Interrupted  the user has asked to stop
 std::string read_to_end(int pipe) {
@@ -77,20 +94,15 @@ int status_at_end_of(pid_t process) {
   return status;
 }
 
-/// Runs a program, found on the PATH, and waits for it. It finds its standard input empty.
-/// @param handles_signals  it ends in order when it gets one, and at once when it gets two. So it is kept from those of
-///                         the terminal and gets the one that is passed on. If this program is killed, it runs on
-/// @throws Error        it cannot be started
-/// @throws Interrupted  the user has asked to stop; it has then ended, too
-Ended_program run_to_end(std::vector<std::string> words, bool handles_signals = false) {
+/// Starts a program whose output goes into a pipe.
+/// @param output  where the pipe is written
+pid_t start(std::vector<std::string> words, int output, bool handles_signals) {
   std::vector<char*> pointers;
   for (auto& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
-  std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("no pipe can be made");
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
   // Who is not in the terminal's foreground group is stopped where it reads from it.
   ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawnattr_t attributes;
@@ -100,18 +112,28 @@ Ended_program run_to_end(std::vector<std::string> words, bool handles_signals = 
   const int cause = ::posix_spawnp(&process, pointers[0], &actions, &attributes, pointers.data(), environ);
   ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&actions);
-  ::close(ends[1]);
-  if (cause != 0) {
-    ::close(ends[0]);
-    throw Error(words[0] + " cannot be started: " + std::generic_category().message(cause));
-  }
+  if (cause != 0) throw Error(words[0] + " cannot be started: " + std::generic_category().message(cause));
+  return process;
+}
+
+/// Runs a program, found on the PATH, and waits for it. It finds its standard input empty.
+/// @param handles_signals  it ends in order when it gets one, and at once when it gets two. So it is kept from those of
+///                         the terminal and gets the one that is passed on. If this program is killed, it runs on
+/// @throws Error        it cannot be started
+/// @throws Interrupted  the user has asked to stop; it has then ended, too
+Ended_program run_to_end(const std::vector<std::string>& words, bool handles_signals = false) {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("no pipe can be made");
+  Pipe_end reading(ends[0]), writing(ends[1]);
+  const pid_t process = start(words, writing.descriptor(), handles_signals);
+  writing.close();
   try {
-    auto output = read_to_end(ends[0]);
-    ::close(ends[0]);
+    auto output = read_to_end(reading.descriptor());
+    reading.close();
     return {.output = std::move(output), .status = status_at_end_of(process)};
   } catch (const Interrupted&) {
     ::kill(process, SIGTERM);
-    ::close(ends[0]);  // it must not wait for someone to read
+    reading.close();  // it must not wait for someone to read
     status_at_end_of(process);
     throw;
   }

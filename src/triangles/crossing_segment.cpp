@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "triangles/crossing_kernel.h"
 #include "triangles/orientation.h"

@@ -145,7 +145,7 @@ template <class Mesh_a, class Mesh_b>
 Collisions by_detector(const Mesh_a& a, const Mesh_b& b, const Detector_options& options) {
   Detector<> detector(options);
   detector.add(a, {.name = "the first mesh"}), detector.add(b, {.name = "the second mesh"});
-  return collisions_of(detector.detect(0, 1));
+  return collisions_of(Frame(detector.detect(0, 1)));
 }
 
 Collisions self_by_detector(const Surface_mesh& mesh, Detector_options options,
@@ -153,7 +153,7 @@ Collisions self_by_detector(const Surface_mesh& mesh, Detector_options options,
   options.exact.self_collision = true;
   Detector<> detector(options);
   detector.add(mesh, {.file_vertex = file_vertex});
-  return collisions_of(detector.detect(0, 0));
+  return collisions_of(Frame(detector.detect(0, 0)));
 }
 
 void expect_same(const Collisions& found, const Collisions& expected) {
@@ -268,6 +268,30 @@ TEST(Find_collisions, builds_nothing_unless_options_need_it) {
     EXPECT_GT(found.statistics.exact_tests, 0U);
   }
   EXPECT_EQ(find_collisions(a, b, {.exact = {.tolerance = 0.1}}).statistics.builds, 2U);
+}
+
+TEST(Find_collisions, the_frame_of_one_call_is_the_first_of_a_detector) {
+  const auto a = sphere(8);
+  for (const double x : {1.5, 2.5, 9.0}) {  // the boxes of the last two are apart from it
+    SCOPED_TRACE(x);
+    const auto b = sphere(8, 1, {x, 0.1, 0});
+    const auto frame = frame_at_once(a, b, {});
+    ASSERT_TRUE(frame);
+    Detector<> detector;
+    detector.add(a), detector.add(b);
+    const Frame& truth = detector.detect();
+    EXPECT_EQ(frame->number, truth.number);
+    EXPECT_EQ(frame->pairs.size(), truth.pairs.size());
+    EXPECT_EQ(frame->collides(), truth.collides());
+    EXPECT_EQ(frame->face_pairs, truth.face_pairs);
+    EXPECT_EQ(frame->statistics.object_candidates, truth.statistics.object_candidates);
+    EXPECT_EQ(frame->statistics.contacts, truth.statistics.contacts);
+    EXPECT_EQ(frame->statistics.vertices_read, a.number_of_vertices() + b.number_of_vertices());
+    EXPECT_GT(frame->statistics.seconds.broad_phase, 0);
+    EXPECT_EQ(frame->statistics.seconds.confirmation > 0, frame->collides());
+    EXPECT_EQ(frame->statistics.seconds.total(),
+              frame->statistics.seconds.broad_phase + frame->statistics.seconds.confirmation);
+  }
 }
 
 /// What `ask` throws; empty: nothing.

@@ -38,7 +38,7 @@ TEST(Cells, that_are_empty_take_the_farthest_vectors_of_the_widest) {
   const Feature_vectors vectors = (Feature_vectors(5, 1) << 0, 1, 10, 14, 18).finished();
   Feature_vectors codes = (Feature_vectors(4, 1) << 0.5, 13, 100, 200).finished();
   Assignment assignment = assigned(vectors, codes);
-  EXPECT_TRUE(reseed_empty_cells(vectors, codes, assignment));
+  EXPECT_TRUE(refill_empty_cells(vectors, codes, assignment));
   expect_those_of_the_labels(assignment, vectors, codes);
   EXPECT_EQ(assignment.labels, (std::vector<Region_index>{0, 0, 3, 1, 2}));
   EXPECT_EQ(codes(2, 0), 18);
@@ -56,7 +56,7 @@ TEST(Cells, that_are_empty_are_filled_where_there_are_enough_different_vectors) 
     for (auto& x : codes.reshaped()) x = 20 * number(random);  // few of them are near a vector
     Assignment assignment = assigned(vectors, codes);
     const bool had_empty = std::ranges::find(assignment.cell_sizes, 0U) != assignment.cell_sizes.end();
-    EXPECT_EQ(reseed_empty_cells(vectors, codes, assignment), had_empty);
+    EXPECT_EQ(refill_empty_cells(vectors, codes, assignment), had_empty);
     expect_those_of_the_labels(assignment, vectors, codes);
     EXPECT_EQ(std::ranges::count(assignment.cell_sizes, 0U), 0);
   }
@@ -66,7 +66,7 @@ TEST(Cells, stay_empty_where_vectors_are_the_same) {
   const Feature_vectors vectors = (Feature_vectors(3, 1) << 2, 2, 2).finished();
   Feature_vectors codes = (Feature_vectors(2, 1) << 2, 9).finished();
   Assignment assignment = assigned(vectors, codes);
-  EXPECT_TRUE(reseed_empty_cells(vectors, codes, assignment));
+  EXPECT_TRUE(refill_empty_cells(vectors, codes, assignment));
   expect_those_of_the_labels(assignment, vectors, codes);
   EXPECT_EQ(drop_empty_cells(assignment, codes)[0], 0U);
   EXPECT_EQ(codes, (Feature_vectors(1, 1) << 2).finished());
@@ -87,7 +87,7 @@ TEST(Cells, that_are_empty_take_from_the_widest_that_is_left) {
   Workers workers(1);
   assign_plain(vectors, codes, assignment, workers);
   ASSERT_EQ(assignment.labels, (std::vector<Region_index>{0, 0, 0, 1, 1}));
-  EXPECT_TRUE(reseed_empty_cells(vectors, codes, assignment));
+  EXPECT_TRUE(refill_empty_cells(vectors, codes, assignment));
   EXPECT_EQ(assignment.labels, (std::vector<Region_index>{0, 0, 2, 3, 1}));
 }
 

@@ -4,8 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
 
 #include "lodestone/queries/exhaustive.h"
+#include "peers/peer.h"
 
 namespace lodestone {
 namespace {
@@ -73,6 +78,71 @@ TEST(First_answer, is_asked_at_each_size_once_and_at_the_smallest_first) {
   ASSERT_EQ(ordered.size(), 2U);
   EXPECT_EQ(ordered[0].triangles(), sizes[0].triangles());
   EXPECT_EQ(ordered[1].triangles(), sizes[1].triangles());
+}
+
+/// Waits before it answers no: so many milliseconds at least in its first answers, one after the other.
+class Slow_session : public Session {
+ public:
+  explicit Slow_session(double milliseconds, int frames) : milliseconds_(milliseconds), frames_(frames) {}
+  void update() override {
+    milliseconds_ = 0;
+    if (--frames_ < 0) throw Gave_up();
+  }
+  bool any() override {
+    std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(milliseconds_));
+    return false;
+  }
+  void all(std::vector<Face_pair>&) override {}
+
+ private:
+  double milliseconds_;
+  int frames_;
+};
+
+/// A contestant that reports no face pairs. It answers in so many more frames, then it gives up.
+/// @param begun  its name is added whenever a session begins
+Once_contestant slow_contestant(const std::string& name, std::vector<double> milliseconds,
+                                std::vector<std::string>& begun, int frames = 1000) {
+  return {.library = name,
+          .method = "",
+          .reports_pairs = false,
+          .begin = [=, &begun, round = std::size_t{0}](const Surface_mesh&, const Surface_mesh&,
+                                                       Contact_query) mutable -> std::unique_ptr<Session> {
+            begun.push_back(name);
+            return std::make_unique<Slow_session>(milliseconds[round++ % milliseconds.size()], frames);
+          }};
+}
+
+TEST(First_answer, contestants_follow_each_other_in_changing_order) {
+  std::vector<std::string> begun;
+  std::vector<Once_contestant> three;
+  for (const char* name : {"a", "b", "c"}) three.push_back(slow_contestant(name, {0}, begun));
+  Once_scene scene = make_once_scene(once_kinds()[0], once_sizes().front());
+  measure_first_answers(scene, three, {false, false, false}, 2);
+  // One session each for the peak of memory, then two rounds of the question yes or no.
+  EXPECT_EQ(begun, (std::vector<std::string>{"a", "b", "c", "a", "b", "c", "b", "a", "c"}));
+}
+
+TEST(First_answer, a_time_is_the_median_of_all_rounds) {
+  std::vector<std::string> begun;
+  const std::vector<Once_contestant> one{slow_contestant("a", {0, 30, 0, 30}, begun)};  // the first for the peak
+  Once_scene scene = make_once_scene(once_kinds()[0], once_sizes().front());
+  const auto figures = measure_first_answers(scene, one, {false}, 3);
+  ASSERT_TRUE(figures[0].any);
+  EXPECT_GE(figures[0].any->first, 0.03);  // of 30, 0 and 30 milliseconds
+  EXPECT_FALSE(figures[0].all);
+}
+
+TEST(First_answer, rounds_in_which_a_contestant_gives_up_do_not_count) {
+  std::vector<std::string> begun;
+  const std::vector<Once_contestant> one{slow_contestant("a", {0}, begun, 2)};
+  Once_scene scene = make_once_scene(once_kinds()[0], once_sizes().front());
+  const auto before = positions_of_second(scene);
+  const auto figures = measure_first_answers(scene, one, {false}, 3);
+  EXPECT_TRUE(figures[0].gave_up);
+  EXPECT_FALSE(figures[0].any);
+  EXPECT_EQ(begun.size(), 2U);
+  EXPECT_EQ(positions_of_second(scene), before);
 }
 
 TEST(First_answer, measures_every_question_that_a_contestant_answers) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "program/run_program.h"
@@ -50,6 +51,36 @@ TEST(Every_frame_experiment, gives_the_same_files_in_shards) {
   expect_success(run_program({"merge", (folder.path() / "parts").string(), "--quiet"}));
   for (const std::string file : {"every_frame.json", "every_frame.md"})
     EXPECT_EQ(read_bytes(folder.path() / "parts" / file), read_bytes(folder.path() / "whole" / file));
+}
+
+TEST(Every_frame_experiment, keeps_scenes_of_one_name_apart) {
+  const Temporary_folder folder;
+  const auto write = [&](const std::string& file, int frames, int frequency) {
+    folder.write(file, fmt::format(R"({{"name": "same", "frames": {}, "objects": [
+        {{"name": "p", "shape": {{"icosphere": {{"frequency": {}}}}}}},
+        {{"name": "q", "shape": {{"icosphere": {{"frequency": 2}}}}, "place": {{"translate": [1.5, 0, 0]}}}}]}})",
+                                   frames, frequency));
+  };
+  write("a.json", 3, 2), write("b.json", 5, 2);
+  const std::vector<std::string> words{"experiment",           "every_frame", "--scenes",
+                                       folder.path().string(), "--out",       (folder.path() / "out").string()};
+  expect_success(run_program(words));
+  const auto figures = read_json(folder.path() / "out/every_frame.json");
+  ASSERT_EQ(figures.size(), 2U);
+  EXPECT_EQ(figures[0]["scene"], "same");
+  EXPECT_EQ(figures[0]["frames"], 3);
+  EXPECT_EQ(figures[1]["scene"], "same_2");
+  EXPECT_EQ(figures[1]["frames"], 5);
+
+  const auto shard = [&](const std::string& part) {
+    auto shard_words = words;
+    shard_words.back() += "_of_shards";
+    shard_words.insert(shard_words.end(), {"--shard", part});
+    return run_program(shard_words);
+  };
+  expect_success(shard("1/2"));
+  write("a.json", 3, 3);
+  expect_error(shard("2/2"), 2, "these are shards of other work: inputs is ");
 }
 
 TEST(Every_frame_experiment, plays_real_motion_with_and_without_only) {

@@ -189,9 +189,9 @@ TEST_F(Partition_program, labels_sizes_particles_and_coloured_mesh_agree_where_a
   before.motion.pose(0, points), after.motion.pose(0, points_after);
   EXPECT_EQ(points_after, points);
   const auto corners = [](const Animation& surface) {
-    std::vector<std::set<std::uint32_t>> all;
-    for (const auto& face : surface.faces) all.emplace_back(face.begin(), face.end());
-    return all;
+    std::vector<std::set<std::uint32_t>> of_faces;
+    for (const auto& face : surface.faces) of_faces.emplace_back(face.begin(), face.end());
+    return of_faces;
   };
   EXPECT_EQ(corners(after), corners(before));
 }

@@ -3,6 +3,7 @@
 
 import gc
 import weakref
+from decimal import Decimal
 
 import numpy as np
 import pytest
@@ -305,6 +306,12 @@ def test_first_self_impact_of_a_cube_that_turns_inside_out():
     one_call = lodestone.first_self_impact(box, end)
     assert one_call["time"] == 0.5 and one_call["faces"] == impact["faces"]
     assert detector.first_self_impact(0, box.vertices + [1, 2, 3]) is None
+    # Two faces along an edge that is stored twice touch from the start, unless its vertices are one.
+    seam = Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0], [1, 0, 0], [0, -1, 1]], [[0, 1, 2], [4, 3, 5]])
+    assert lodestone.first_self_impact(seam, seam.vertices)["time"] == 0
+    assert lodestone.first_self_impact(seam, seam.vertices, file_vertex=[0, 1, 2, 0, 1, 5]) is None
+    with pytest.raises(lodestone.BadArgument, match="file_vertex"):
+        lodestone.first_self_impact(seam, seam.vertices, file_vertex=[0])
     with pytest.raises(lodestone.BadMesh, match="8 vertices, but got 7"):
         detector.first_self_impact(0, end[:7])
     with pytest.raises(lodestone.BadArgument, match=r"end must have the shape \(n, 3\)"):
@@ -326,6 +333,15 @@ def test_a_visitor_sees_contacts_and_may_stop():
     assert detector.detect().collides
 
 
+def test_an_object_is_there_or_not():
+    detector = lodestone.Detector()
+    detector.add(cube()), detector.add(sphere())
+    detector.remove(0)
+    assert 1 in detector and np.int64(1) in detector
+    for key in (0, 2, -1, 2**40, 1.0, np.float32(1.5), Decimal(1), np.array([1.5]), "1", None):
+        assert key not in detector
+
+
 def test_faces_change():
     detector = lodestone.Detector()
     shape = detector.add(sphere(8))
@@ -339,6 +355,21 @@ def test_faces_change():
     faces[5] = faces[6]
     detector.rebuild(shape, finer.vertices, faces, changed=[5])
     assert np.array_equal(detector.detect().faces, lodestone.find_collisions(Mesh(finer.vertices, faces), other).faces)
+    faces[9] = faces[10]
+    for incomplete in ([], [5], [8, 10]):
+        with pytest.raises(lodestone.BadArgument, match="object 0: face 9 has other corners than before"):
+            detector.rebuild(shape, finer.vertices, faces, changed=incomplete)
+    faces[9] = np.roll(finer.faces[9], 1)
+    with pytest.raises(lodestone.BadArgument, match="face 9 has other corners"):
+        detector.rebuild(shape, finer.vertices, faces, changed=[])
+    faces[9] = finer.faces[9]
+    with pytest.raises(lodestone.BadArgument, match=f"there is no face {len(faces)}"):
+        detector.rebuild(shape, finer.vertices, faces, changed=[len(faces)])
+    fewer = np.vstack([faces[:-3], faces[[0]]])  # one moved from the end, as `collect_garbage` does
+    with pytest.raises(lodestone.BadArgument, match=f"face {len(fewer) - 1} has other corners"):
+        detector.rebuild(shape, finer.vertices, fewer, changed=[])
+    detector.rebuild(shape, finer.vertices, fewer, changed=[len(fewer) - 1])
+    detector.rebuild(shape, finer.vertices, faces, changed=[len(fewer) - 1])  # those at the end are new
     with pytest.raises(lodestone.BadMesh, match="face 0 refers to vertex 7 of 3"):
         detector.rebuild(shape, np.zeros((3, 3)), [[0, 1, 7]])
     with pytest.raises(lodestone.BadMesh):
@@ -378,6 +409,9 @@ def test_a_placed_object_is_where_its_matrix_says():
 def test_regions_and_particles():
     detector = lodestone.Detector(mode="particles", particles=12, list_candidates=True)
     detector.add(sphere()), detector.add(sphere().moved(1.5))
+    for call, what in ((detector.regions, "regions"), (detector.particles, "particles")):
+        with pytest.raises(lodestone.BadArgument, match=f"object 0 has no {what} until the next detect"):
+            call(0)
     frame = detector.detect()
     assert frame.collides
     regions, particles = detector.regions(0), detector.particles(0)

@@ -365,6 +365,8 @@ def test_a_frame_shows_itself():
     assert len(page) == 1 and "<iframe" in page._repr_html_()
     with pytest.raises(lodestone.BadArgument, match="only a frame of a Detector"):
         lodestone.find_collisions(cube(), sphere()).frame.show()
+    with pytest.raises(TypeError, match="got Pair: its frame is pair.frame"):
+        lodestone.page([detector.self_collisions(0)])
 
 
 def test_the_name_of_a_mesh_file_is_taken_literally(tmp_path):
@@ -378,8 +380,16 @@ def test_the_name_of_a_mesh_file_is_taken_literally(tmp_path):
 def test_numbers_that_are_not_finite_are_not_written(tmp_path, name):
     mesh = cube()
     mesh.vertices[2, 1] = np.nan
-    with pytest.raises(lodestone.BadMesh, match="vertex 2 of frame 0"):
+    with pytest.raises(lodestone.BadMesh, match=f"{name}: vertex 2 has a coordinate that is not finite"):
         lodestone.write_mesh(tmp_path / name, mesh)
+    with pytest.raises(lodestone.BadMesh, match=f"{name}: vertex 2 of frame 1"):
+        lodestone.write_animation(tmp_path / name, [cube().vertices, mesh.vertices], cube().faces)
+    with pytest.raises(lodestone.BadMesh, match=f"{name}: face 3 refers to vertex 8 of 8"):
+        lodestone.write_mesh(tmp_path / name, cube().vertices, np.where(np.arange(12)[:, None] == 3, 8, cube().faces))
+    with pytest.raises(lodestone.BadArgument, match=rf"{name}: frame 1 must have the shape \(n, 3\), but got \(8, 2\)"):
+        lodestone.write_animation(tmp_path / name, [cube().vertices, np.zeros((8, 2))], cube().faces)
+    with pytest.raises(lodestone.BadArgument, match=f"{name}: vertices must have the shape"):
+        lodestone.write_mesh(tmp_path / name, np.zeros((8, 2)), cube().faces)
     assert not list(tmp_path.iterdir())
 
 

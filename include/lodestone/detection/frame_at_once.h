@@ -30,9 +30,11 @@ struct Overlapping_surfaces {
   Faces_in_box a;  ///< faces of the first that meet the overlap of both boxes
   Faces_in_box b;  ///< and of the second
 };
-/// The frame of two surfaces, the objects 0 and 1.
+/// Makes the frame of two surfaces, the objects 0 and 1.
 /// @param reading  seconds that it took to read them
-Frame overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options, double reading);
+/// @param frame    default-constructed; is filled
+void make_overlap_frame(const Overlapping_surfaces& surfaces, const Detector_options& options, double reading,
+                        Frame& frame);
 /// The frame of one surface, the object 0, and itself.
 /// @param corners  without doubled vertices
 Frame self_frame(std::span<const Corners> corners, Coordinates coordinates, const Detector_options& options);
@@ -54,7 +56,8 @@ template <Triangle_mesh Mesh_a, Vertex_point_map<Mesh_a> Points_a, Triangle_mesh
           Vertex_point_map<Mesh_b> Points_b>
 std::optional<Frame> frame_at_once(const Mesh_a& a, Points_a points_a, const Mesh_b& b, Points_b points_b,
                                    const Detector_options& options) {
-  if (!can_answer_at_once(options) || static_cast<const void*>(&a) == static_cast<const void*>(&b)) return std::nullopt;
+  std::optional<Frame> frame;  // in its place: a move would run as much cold code as making it
+  if (!can_answer_at_once(options) || static_cast<const void*>(&a) == static_cast<const void*>(&b)) return frame;
   Overlapping_surfaces surfaces;
   bool usable = false;
   double reading = 0;
@@ -66,9 +69,9 @@ std::optional<Frame> frame_at_once(const Mesh_a& a, Points_a points_a, const Mes
     const Box overlap = surfaces.box_a.intersection(surfaces.box_b);
     usable = reader_a.read_faces(overlap, surfaces.a) && reader_b.read_faces(overlap, surfaces.b);
   });
-  if (!usable) return std::nullopt;
-  Frame frame = overlap_frame(surfaces, options, reading);
-  frame.statistics.vertices_read = num_vertices(a) + num_vertices(b);
+  if (!usable) return frame;
+  make_overlap_frame(surfaces, options, reading, frame.emplace());
+  frame->statistics.vertices_read = num_vertices(a) + num_vertices(b);
   return frame;
 }
 

@@ -41,10 +41,10 @@ class Geodesic_voronoi {
   bool is_seed(std::uint32_t vertex) const { return is_seed_[vertex]; }
 
   /// Distance from the nearest seed along the edges, in units of the positions; infinity if no seed reaches the vertex.
-  double distance(std::uint32_t vertex) const { return reaches_[vertex].distance; }
+  double distance(std::uint32_t vertex) const { return nearest_[vertex].distance; }
 
   /// Index of the nearest seed along the edges; `no_seed` if none reaches the vertex.
-  Region_index nearest_seed(std::uint32_t vertex) const { return reaches_[vertex].seed; }
+  Region_index nearest_seed(std::uint32_t vertex) const { return nearest_[vertex].seed; }
 
   /// The same for all vertices. A vertex that no seed reaches along the edges gets the seed that is nearest in a
   /// straight line. O(V + U N) for U such vertices and N seeds.
@@ -52,12 +52,12 @@ class Geodesic_voronoi {
 
  private:
   /// A seed and its distance, in lexicographic order of distance and seed.
-  struct Reach {
+  struct Seed_distance {
     double distance = std::numeric_limits<double>::infinity();
     Region_index seed = no_seed;
 
-    Reach after(double length) const { return {distance + length, seed}; }
-    bool operator<(const Reach& other) const {
+    Seed_distance after(double length) const { return {distance + length, seed}; }
+    bool operator<(const Seed_distance& other) const {
       return distance < other.distance || (distance == other.distance && seed < other.seed);
     }
   };
@@ -75,8 +75,8 @@ class Geodesic_voronoi {
 
   const Vertex_graph& graph_;
   const Positions& positions_;
-  std::vector<double> lengths_;  ///< per edge
-  std::vector<Reach> reaches_;   ///< V
+  std::vector<double> lengths_;         ///< per edge
+  std::vector<Seed_distance> nearest_;  ///< V
   std::vector<std::uint32_t> seeds_;
   std::vector<bool> is_seed_;  ///< V
 };

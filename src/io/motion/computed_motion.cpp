@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lodestone/io/motion/computed_motion.h"
 
-#include <algorithm>
 #include <concepts>
 #include <utility>
 

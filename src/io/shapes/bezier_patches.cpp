@@ -2,7 +2,6 @@
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
