@@ -6,7 +6,11 @@
 namespace lodestone {
 
 Collisions collisions_of(Frame&& frame) {
-  if (frame.pairs.empty()) return {.statistics = frame.statistics};
+  if (frame.pairs.empty()) {
+    Collisions none;
+    none.statistics = frame.statistics;
+    return none;
+  }
   return {.collides = frame.collides(),
           .near = frame.near(),
           .faces = std::move(frame.face_pairs),

@@ -63,23 +63,17 @@ void load(Python_detector& self, Object_id object, const py::bytes& saved) {
   self.change([&](auto& detector) { detector.load(object, std::as_bytes(std::span(bytes))); });
 }
 
-[[noreturn]] void throw_not_divided(Object_id object, const std::string& what) {
-  throw Bad_argument("object " + std::to_string(object) + " has no " + what +
-                     " until the next detect: it is new, or has been rebuilt");
-}
-
 /// Regions of the vertices.
 py::object regions(Python_detector& self, Object_id object) {
-  const auto regions = self.change([&](auto& detector) { return detector.regions(object); });
-  if (regions.empty()) throw_not_divided(object, "regions");
-  return array_of<std::int64_t>(regions);
+  return array_of<std::int64_t>(self.change([&](auto& detector) { return detector.regions(object); }));
 }
 
 py::object particles(Python_detector& self, Object_id object) {
   if (finds_all(self.options().mode))
     throw Bad_argument("particles needs the mode particles or senin; modes exact and certified have no particles");
   const auto at = self.change([&](auto& detector) { return detector.object(object).particles().at; });
-  if (at.empty()) throw_not_divided(object, "particles");
+  if (at.empty())
+    throw Bad_argument("object " + std::to_string(object) + " has no particles before the first query");
   return array_of<std::int64_t>(at);
 }
 

@@ -410,7 +410,7 @@ def test_regions_and_particles():
     detector = lodestone.Detector(mode="particles", particles=12, list_candidates=True)
     detector.add(sphere()), detector.add(sphere().moved(1.5))
     for call, what in ((detector.regions, "regions"), (detector.particles, "particles")):
-        with pytest.raises(lodestone.BadArgument, match=f"object 0 has no {what} until the next detect"):
+        with pytest.raises(lodestone.BadArgument, match=f"object 0 has no {what} before the first query"):
             call(0)
     frame = detector.detect()
     assert frame.collides
