@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "lodestone/io/results/text_table.h"
 #include "program/measurement.h"
@@ -16,10 +15,6 @@
 namespace lodestone {
 
 namespace {
-
-double mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
 
 /// How many times as much the one reads as the other, in the median frames.
 std::string times_less(const std::vector<double>& all, const std::vector<double>& some) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numeric>
 #include <string>
 
@@ -14,6 +13,7 @@
 #include "program/measurement.h"
 #include "shared/lap_timer.h"
 #include "shared/measured_run.h"
+#include "shared/memory_peak.h"
 
 namespace lodestone {
 
@@ -31,22 +31,13 @@ std::vector<Face_pair> truth_of(const Once_scene& scene) {
   return detector.detect(0, 1).face_pairs;
 }
 
-/// A line of /proc/self/status, in bytes; 0 where there is none.
-std::size_t status_bytes(const std::string& key) {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;)
-    if (std::size_t kilobytes = 0; word == key + ":" && status >> kilobytes) return 1024 * kilobytes;
-  return 0;
-}
-
 /// How much more memory is resident at most, while `ask` runs, than before.
 template <class Ask>
 std::size_t peak_bytes(const Ask& ask) {
   ::malloc_trim(0);
-  std::ofstream("/proc/self/clear_refs") << 5;  // the peak is from here on
-  const std::size_t before = status_bytes("VmRSS");
+  const Memory_peak peak;
   ask();
-  return std::max(status_bytes("VmHWM"), before) - before;
+  return peak.bytes();
 }
 
 /// Puts the vertices of a mesh back where they were, also after a contestant has given up.

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 #include <vector>
 
@@ -103,10 +102,6 @@ By_variant sorted_by_variant(const Rows& rows, const std::string& mesh = {}) {
     if (mesh.empty() || row.at("mesh") == mesh)
       sorted[row.at("variant")][row.at("regions_wanted")][row.at("seed")].push_back(&row);
   return sorted;
-}
-
-double mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 /// Mean or median over the rows of each seed, then the interval over the seeds.

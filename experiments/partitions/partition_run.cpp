@@ -3,47 +3,19 @@
 
 #include <nlohmann/json.hpp>
 
-#include <fstream>
 #include <limits>
 
 #include "lodestone/mesh/stopwatch.h"
 #include "lodestone/partition/partition_measures.h"
 #include "program/measures_json.h"
 #include "shared/measured_run.h"
+#include "shared/memory_peak.h"
 
 namespace lodestone {
 
 namespace {
 
 using Row = nlohmann::ordered_json;
-
-/// A line of /proc/self/status, in KiB; 0 where there is none.
-std::size_t status_kib(const std::string& key) {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;)
-    if (word == key + ":") {
-      std::size_t kib = 0;
-      status >> kib;
-      return kib;
-    }
-  return 0;
-}
-
-/// What the process holds at most while something runs, beyond what it held before.
-class Memory_peak {
- public:
-  Memory_peak() {
-    std::ofstream("/proc/self/clear_refs") << "5";  // the peak starts anew
-    before_ = status_kib("VmRSS");
-  }
-  std::size_t kib() const {
-    const std::size_t peak = status_kib("VmHWM");
-    return peak > before_ ? peak - before_ : 0;
-  }
-
- private:
-  std::size_t before_ = 0;
-};
 
 /// The surface of a mesh by number, as it is in the first frame.
 struct Numbered {
@@ -73,7 +45,7 @@ Divided divide(const Partition_input<Surface_mesh>& input, std::size_t regions, 
     double seconds = 0;
     const Memory_peak memory;
     timed(seconds, [&] { result.partition = partition_numbered(input, regions, strategy, options); });
-    if (repetition == 0) result.peak_kib = memory.kib();
+    if (repetition == 0) result.peak_kib = memory.bytes() / 1024;
     result.seconds = std::min(result.seconds, seconds);
     spent += seconds;
   }

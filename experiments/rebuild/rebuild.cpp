@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <random>
 
 #include "lodestone/detector.h"
@@ -111,10 +110,6 @@ void play(Loosening_motion& moving, std::span<Limit_figures> rows) {
     // The last row never rebuilds.
     for (std::size_t r = 0; r < rows.size(); ++r) rows[r].different += found[r] != found.back() ? 1 : 0;
   }
-}
-
-double mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 }  // namespace

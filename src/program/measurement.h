@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,8 @@ struct Measurement {
   double build_seconds = 0;                   ///< of all objects, summed over all frames
 };
 
+/// 0 if there are none.
+double mean(std::span<const double> values);
 /// The mean of the two in the middle if their number is even; 0 if there are none.
 double median(std::vector<double> values);
 /// Median over the frames of one time, such as `&Stage_times::relaxation`, in microseconds.
