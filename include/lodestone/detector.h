@@ -184,6 +184,7 @@ class Detector {
   /// is built first if it has not been, as `detect` would. Same bytes for the same mesh and options. O(V + F).
   /// @throws Bad_argument  no such object
   /// @throws Bad_mesh      as `detect`
+  /// @throws Broken_bound  as `detect`
   std::vector<std::byte> save(Object_id object) {
     State_writer state;
     detection_->save(checked(object), state);

@@ -57,6 +57,23 @@ void add_errors(py::module_& module) {
   add.template operator()<Bad_output>("BadOutput", "A result that could not be written.", py::none());
 }
 
+/// The classes of the module that stand for types of C++.
+py::list bound_classes(const py::module_& module) {
+  const py::handle base(reinterpret_cast<PyObject*>(py::detail::get_internals().instance_base));
+  py::list classes;
+  for (const auto& [name, value] : py::cast<py::dict>(module.attr("__dict__")))
+    if (py::isinstance<py::type>(value) && PyObject_IsSubclass(value.ptr(), base.ptr()) == 1) classes.append(value);
+  return classes;
+}
+
+/// Refuses objects whose `__init__` has not been called, or not yet. pybind11 would lend them memory that holds nothing.
+void refuse_uninitialised(const py::module_& module) {
+  for (const py::handle type : bound_classes(module))
+    py::detail::get_type_info(reinterpret_cast<PyTypeObject*>(type.ptr()))->operator_new = [](std::size_t) -> void* {
+      throw py::type_error("the object has not been initialised: __init__ of its class of lodestone must be called first");
+    };
+}
+
 /// Lets every class be reduced for `pickle`, or refused, in one way. Python's own way for protocols 0 and 1 makes an
 /// instance of the base of all classes of pybind11, which ends the process.
 void add_reduce(const py::module_& module) {
@@ -67,10 +84,8 @@ void add_reduce(const py::module_& module) {
       throw py::type_error("cannot pickle '" + py::cast<std::string>(type.attr("__name__")) + "' object");
     return py::make_tuple(anew, py::make_tuple(type), self.attr("__getstate__")());
   };
-  const py::handle base(reinterpret_cast<PyObject*>(py::detail::get_internals().instance_base));
-  for (const auto& [name, value] : py::cast<py::dict>(module.attr("__dict__")))
-    if (py::isinstance<py::type>(value) && PyObject_IsSubclass(value.ptr(), base.ptr()) == 1)
-      value.attr("__reduce__") = py::cpp_function(reduce, py::is_method(value), py::name("__reduce__"));
+  for (const py::handle type : bound_classes(module))
+    py::setattr(type, "__reduce__", py::cpp_function(reduce, py::is_method(type), py::name("__reduce__")));
 }
 
 }  // namespace
@@ -89,5 +104,6 @@ PYBIND11_MODULE(_lodestone, module) {
   add_partitions(module);
   add_files(module);
   add_pages(module);
+  refuse_uninitialised(module);
   add_reduce(module);
 }

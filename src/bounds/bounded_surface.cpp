@@ -87,9 +87,14 @@ void Bounded_surface::plan_frame() {
 void Bounded_surface::bound(std::uint32_t node) {
   if (bounds_.empty()) return pose_all();
   if (takes_long() || (is_paused() && node != 0)) return give_up();
+  if (!take_box(node)) pose_all();  // which names the vertex that is not finite
+}
+
+/// @return false if a position that a bound has read is not finite
+bool Bounded_surface::take_box(std::uint32_t node) {
   const Aabb box = box_from_bounds(node);
   const auto is_finite = [](const Eigen::Vector3d& position) { return position.allFinite(); };
-  if (!std::ranges::all_of(read_by_bounds_, is_finite)) return pose_all();  // which names the vertex
+  if (!std::ranges::all_of(read_by_bounds_, is_finite)) return false;
   const auto lies_within = [&](const Eigen::Vector3d& position) { return contains(box, position); };
   if (is_empty(box) || !std::ranges::all_of(read_by_bounds_, lies_within))  // though vertices must be in it
     ++violations_;
@@ -98,6 +103,16 @@ void Bounded_surface::bound(std::uint32_t node) {
   boxes_[node] = box;
   boxed_in_[node] = frame_;
   ++nodes_bounded_;
+  return true;
+}
+
+/// The box of the whole, and those of all leaves if all is to be compared, where they are not in use yet.
+void Bounded_surface::take_boxes_to_compare() {
+  if (bounds_.empty()) return;
+  const auto take = [&](std::uint32_t node) { return boxed_in_[node] == frame_ || take_box(node); };
+  if (!take(0) || !compares_all_) return;
+  for (std::uint32_t leaf = 0; leaf < layout().leaf_count(); ++leaf)
+    if (!take(layout().leaf_node(leaf))) return;
 }
 
 /// What all bounds have in common, cut to the box of the node above, if that is in use. So a position that bounds have
@@ -206,6 +221,7 @@ void Bounded_surface::fit_parents_of(std::uint32_t node) {
 
 void Bounded_surface::pose_all() {
   if (all_posed_) return;
+  take_boxes_to_compare();
   const Coordinates coordinates =
       in_memory_ ? tree_->coordinates() : or_start_over([&] { return positions_->all(posed_); });
   std::vector<Aabb> promised;

@@ -38,6 +38,9 @@ Displacement_bound::Displacement_bound(const Displacement_promise& promise, cons
       parents_(object.layout.parents()) {
   check_object(object);
   const bool tells_apart = promise.region_count() > 1;
+  if (tells_apart && object.labels.empty())
+    throw Bad_argument(
+        fmt::format("displacements are promised for {} regions, the object has none", promise.region_count()));
   if (tells_apart)
     for (const auto label : object.labels)
       if (label >= promise.region_count())

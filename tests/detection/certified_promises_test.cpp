@@ -2,7 +2,9 @@
 // Promises in mode certified, kept and broken.
 #include <CGAL/boost/graph/Euler_operations.h>
 
+#include <algorithm>
 #include <limits>
+#include <random>
 #include <utility>
 
 #include "detection/certified_scene.h"
@@ -538,6 +540,62 @@ TEST_F(Promises_about_rest, wait_until_the_mesh_can_be_read) {
   shift(a, -3), shift(b, -3);
   EXPECT_FALSE(certified.detect(1, 2).collides());  // at rest now
   expect_true_promise_and_contact();
+}
+
+/// Its bound is made by the first query about it.
+TEST_F(Promises_about_rest, that_are_broken_before_their_bound_is_made_are_counted) {
+  const Stretch_promise rigid;
+  certified.promise(0, rigid);
+  certified.detect(1, 2);  // a is at rest now
+  deform(a, [](const Point& p) { return Point(3 * p.x(), p.y(), p.z()); });
+  EXPECT_GT(certified.detect().statistics.violations, 0U);
+  EXPECT_EQ(certified.detect().statistics.violations, 0U);  // nobody has moved, so nothing is read
+}
+
+/// Moves the vertices of a grid up and down so far that its leaves are much larger than before.
+void crease(Surface_mesh& sheet, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> height(-20, 20);
+  deform(sheet, [&](const Point& p) { return Point(p.x(), p.y(), height(random)); });
+}
+
+/// A promise is about the regions that the caller has seen.
+TEST(Certified, objects_keep_their_regions_once_something_is_promised) {
+  Surface_mesh sheet = grid(40, 40), ball = icosphere(2);
+  shift(ball, 90);
+  const Surface_mesh flat = sheet;
+  Detector detector({.mode = Mode::certified, .particles = 12});
+  detector.add(std::as_const(sheet)), detector.add(std::as_const(ball));
+  detector.detect();
+  const auto seen = detector.regions(0);
+  const Displacement_promise displacement(*std::ranges::max_element(seen) + 1);
+  const Stretch_promise stretch(1e9);
+  const auto expect_same_regions = [&](std::uint64_t seed) {
+    crease(sheet, seed);
+    EXPECT_EQ(detector.detect().statistics.repartitions, 0U);
+    EXPECT_EQ(detector.regions(0), seen);
+  };
+  detector.promise(0, displacement);
+  expect_same_regions(1);
+  detector.promise(0, stretch);
+  expect_same_regions(2);
+
+  sheet = flat;
+  Detector unpromised({.mode = Mode::certified, .particles = 12});
+  unpromised.add(std::as_const(sheet)), unpromised.add(std::as_const(ball));
+  unpromised.detect();
+  crease(sheet, 1);
+  EXPECT_EQ(unpromised.detect().statistics.repartitions, 1U);
+}
+
+TEST(Certified, displacements_of_regions_need_an_object_that_has_some) {
+  const Surface_mesh a = icosphere(3), b = icosphere(3);
+  const Displacement_promise of_regions(4);
+  Detector detector({.mode = Mode::certified});
+  detector.add(a), detector.add(b);
+  detector.promise(0, of_regions);
+  const auto message = message_of<Bad_argument>([&] { detector.detect(); });
+  EXPECT_NE(message.find("4 regions, the object has none"), std::string::npos) << message;
 }
 
 }  // namespace

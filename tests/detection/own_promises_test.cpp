@@ -276,11 +276,12 @@ TEST(Skinned_points, that_are_assigned_have_bounds_of_their_own) {
   body.expect_collision(true);
 }
 
-TEST(Broken_promise, is_an_error_of_queries_that_read_everything_too) {
+/// A body that grows though its promise says that it does not.
+template <class Promise>
+void expect_error_of_queries_that_read_everything(const Promise& promise) {
   Surface_mesh a = potato(10, 1), b = potato(10, 2);
   const auto expect_broken = [&](const auto& ask) {
     Surface_mesh body = b;
-    Stretch_promise promise;
     Detector detector({.mode = Mode::certified, .exact = {.throw_if_broken = true}});
     detector.add(std::as_const(a));
     detector.add(std::as_const(body));
@@ -297,8 +298,19 @@ TEST(Broken_promise, is_an_error_of_queries_that_read_everything_too) {
   expect_broken([](Detector<>& detector) { detector.parting(0, 1); });
   expect_broken([](Detector<>& detector) { detector.ray_tree(1); });
   expect_broken([](Detector<>& detector) { detector.save(1); });
+  expect_broken([](Detector<>& detector) { detector.self_collisions(1); });
+  expect_broken([](Detector<>& detector) {
+    detector.first_hits(1, std::vector(1000, Ray{.origin = {9, 0, 0}, .direction = {1, 0, 0}}));
+  });
   expect_broken([&](Detector<>& detector) { detector.first_self_impact(1, end); });
   expect_broken([&](Detector<>& detector) { detector.first_impact(0, end_of_a, 1, end); });
+}
+
+TEST(Broken_promise, is_an_error_of_queries_that_read_everything_too) {
+  expect_error_of_queries_that_read_everything(Stretch_promise());
+  expect_error_of_queries_that_read_everything(Displacement_promise());
+  expect_error_of_queries_that_read_everything(Lipschitz_promise());
+  expect_error_of_queries_that_read_everything(Box_promise([](Region_index, const Aabb& rest) { return rest; }));
 }
 
 TEST(Own_displacement, knows_nothing_of_given_positions) {

@@ -121,3 +121,32 @@ def test_something_without_faces_is_refused():
 def test_errors_are_python_errors_too():
     assert issubclass(lodestone.BadMesh, lodestone.Error) and issubclass(lodestone.BadMesh, ValueError)
     assert lodestone.BadMesh.__module__ == "lodestone" and lodestone.Detector.__module__ == "lodestone"
+
+
+CLASSES = [type_ for type_ in vars(lodestone).values() if isinstance(type_, type) and not issubclass(type_, Exception)]
+
+
+@pytest.mark.parametrize("type_", CLASSES, ids=lambda type_: type_.__name__)
+def test_objects_without_init_are_refused(type_):
+    bare = type_.__new__(type_)
+    calls = [repr, len, bool]
+    calls += [lambda made, name=name: getattr(made, name) for name in vars(type_) if not name.startswith("__")]
+    refused = 0
+    for call in calls:
+        try:
+            found = call(bare)
+            if callable(found):
+                found()
+        except (TypeError, RuntimeError) as error:
+            refused += "initialised" in str(error) or "non-held" in str(error)
+    assert refused > 0
+
+
+def test_a_class_below_detector_calls_its_init_first():
+    class Mine(lodestone.Detector):
+        def __init__(self):
+            self.floor = self.add(cube())
+            super().__init__()
+
+    with pytest.raises(TypeError, match="__init__"):
+        Mine()

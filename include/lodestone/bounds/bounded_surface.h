@@ -33,7 +33,7 @@ struct Leaf_vertex {
 /// - a vertex that is read alone, with the boxes in use of its leaf and above it;
 /// - positions of a node that its bounds have read, with the box of the node;
 /// - the leaves below a node, once all of them have been posed, with the node's box if that was in use;
-/// - all vertices, where all are posed, with all boxes in use.
+/// - all vertices, where all are posed, with the box of the whole and with all boxes in use.
 ///
 /// A node's box lies in that of the node above it, if that was in use before. A box that is made later is not compared
 /// with what has been read below its node, until all leaves there have been posed.
@@ -74,7 +74,8 @@ class Bounded_surface {
                   std::vector<std::unique_ptr<Node_bound>> bounds, Workers& workers = Workers::alone(),
                   std::string title = {});
 
-  /// Has watching bounds compare all with what was promised, also where all vertices are posed: see All_watching_bound.
+  /// Has all be compared with what was promised, also where all vertices are posed: boxes of all leaves are asked for
+  /// then, and watching bounds compare all (see All_watching_bound).
   void compare_all(bool all) { compares_all_ = all; }
 
   /// Forgets what was of an earlier pose, unless it is known to be that of now. O(1).
@@ -156,6 +157,8 @@ class Bounded_surface {
   bool takes_long() const;
   void give_up();
   void bound(std::uint32_t node);
+  bool take_box(std::uint32_t node);
+  void take_boxes_to_compare();
   Aabb box_from_bounds(std::uint32_t node);
   template <class Contained>
   bool lies_in_boxes_in_use(std::uint32_t node, const Contained& contained) const;

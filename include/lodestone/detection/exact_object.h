@@ -149,6 +149,8 @@ class Exact_object {
     refreshed_in_ = 0;
     bounded_.reset();
   }
+  /// Whether anything has been promised.
+  bool is_promised() const { return motion_.is_promised(); }
   /// Whether a promise, or computed points, await the positions at rest.
   bool awaits_rest() const { return motion_.awaits_rest(mesh_.mesh()); }
   /// Takes the positions that the mesh has now as those at rest, where they are awaited. Takes none from a mesh that

@@ -60,7 +60,8 @@ class Exact_objects {
   }
 
   /// Writes what was built of an object, which is built first if it has not been.
-  /// @throws Bad_mesh  as `refresh`
+  /// @throws Bad_mesh      as `refresh`
+  /// @throws Broken_bound  as `throw_if_broken`
   void save(Object_id id, State_writer& state);
   /// Takes what was saved of an object with the same faces.
   /// @throws Bad_saved_object  the object stays as it was
@@ -145,6 +146,7 @@ class Exact_objects {
   void refresh_whole();
   void refit_built(std::span<const Object_id> ids);
   void build_new(std::span<const Object_id> ids);
+  bool keeps_tree(Object_id id) const;
   void rebuild_loose(std::span<const Object_id> ids);
   void bound_refitted(std::span<const Object_id> ids);
   void build(std::span<const Object_id> ids, std::span<const Coordinates> coordinates);
@@ -171,7 +173,7 @@ class Exact_objects {
 template <Bounding_volume Volume>
 void Exact_objects<Volume>::refresh(std::span<const Object_id> ids) {
   work_.seconds.refit = 0;
-  work_.vertices_read = 0;
+  work_.vertices_read = work_.violations = 0;
   whole_.clear();
   if (!awaiting_rest_.empty()) timed(work_.seconds.build, [&] { take_awaited_rest(); });
   for (const auto id : ids) {
@@ -242,6 +244,7 @@ void Exact_objects<Volume>::bound_refitted(std::span<const Object_id> ids) {
       timed(work_.seconds.build, [&] { objects_[id]->make_bounds(options_.exact.throw_if_broken, workers_); });
     else
       timed(work_.seconds.refit, [&] { bounded(id).take_refitted(); });
+    if (on_demand(id)) work_.violations += bounded(id).violations();  // frames compare with what is counted from here on
   }
 }
 
@@ -288,7 +291,7 @@ template <Bounding_volume Volume>
 void Exact_objects<Volume>::save(Object_id id, State_writer& state) {
   const Object_id ids[] = {id};
   refresh(ids);
-  pose_all(id);
+  pose_all(ids);
   objects_[id]->save(state);
 }
 
@@ -325,14 +328,22 @@ void Exact_objects<Volume>::build_new(std::span<const Object_id> ids) {
   for (const auto id : fresh) check_finite(surface(id).coordinates(), objects_[id]->unused(), objects_[id]->title());
 }
 
+/// Whether an object keeps its tree and its regions: bounds are about the tree's nodes, and promises, also those of
+/// which no bound has been made yet, are about the regions that the caller has seen.
+template <Bounding_volume Volume>
+bool Exact_objects<Volume>::keeps_tree(Object_id id) const {
+  const Object& object = *objects_[id];
+  const bool has_bounds = object.bounded() != nullptr && object.bounded()->has_bounds();
+  return has_bounds || (options_.mode == Mode::certified && object.is_promised());
+}
+
 /// New trees for objects whose leaves have grown too much in comparison with the whole.
 template <Bounding_volume Volume>
 void Exact_objects<Volume>::rebuild_loose(std::span<const Object_id> ids) {
   std::vector<Object_id> loose;
   std::vector<Coordinates> coordinates;
   for (const auto id : ids) {
-    const bool has_bounds = objects_[id]->bounded() != nullptr && bounded(id).has_bounds();  // of the tree's nodes
-    if (has_bounds || !surface(id).looser_than(options_.exact.loosest)) continue;
+    if (keeps_tree(id) || !surface(id).looser_than(options_.exact.loosest)) continue;
     loose.push_back(id);
     coordinates.push_back(surface(id).coordinates());
   }

@@ -26,6 +26,8 @@ class Known_motion {
  public:
   /// Another promise.
   void promise(Make_bound make) { promises_.push_back(std::move(make)); }
+  /// Whether anything has been promised.
+  bool is_promised() const { return !promises_.empty(); }
   /// Whether a promise, or the points themselves, are about positions at rest that are not known yet.
   bool awaits_rest(const Watched_mesh& mesh) const { return promises_await_rest() || points_await_rest(mesh); }
   /// Takes the positions that the mesh has now as those at rest, where they are awaited, if all are finite. O(V).
