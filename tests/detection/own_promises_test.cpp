@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "detection/certified_scene.h"
+#include "lodestone/bounds/box_promise.h"
 #include "lodestone/bounds/displacement_bound.h"
 #include "lodestone/bounds/lipschitz_bound.h"
 #include "lodestone/bounds/stretch_bound.h"
@@ -298,7 +299,7 @@ void expect_error_of_queries_that_read_everything(const Promise& promise) {
   expect_broken([](Detector<>& detector) { detector.parting(0, 1); });
   expect_broken([](Detector<>& detector) { detector.ray_tree(1); });
   expect_broken([](Detector<>& detector) { detector.save(1); });
-  expect_broken([](Detector<>& detector) { detector.self_collisions(1); });
+  expect_broken([](Detector<>& detector) { detector.detect(1, 1); });
   expect_broken([](Detector<>& detector) {
     detector.first_hits(1, std::vector(1000, Ray{.origin = {9, 0, 0}, .direction = {1, 0, 0}}));
   });

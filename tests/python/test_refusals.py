@@ -129,7 +129,9 @@ CLASSES = [type_ for type_ in vars(lodestone).values() if isinstance(type_, type
 @pytest.mark.parametrize("type_", CLASSES, ids=lambda type_: type_.__name__)
 def test_objects_without_init_are_refused(type_):
     bare = type_.__new__(type_)
-    calls = [repr, len, bool]
+    detector = lodestone.Detector(mode="certified")
+    detector.add(cube())
+    calls = [repr, len, bool, lambda made: detector.promise(0, made)]
     calls += [lambda made, name=name: getattr(made, name) for name in vars(type_) if not name.startswith("__")]
     refused = 0
     for call in calls:

@@ -56,10 +56,19 @@ bool Text_scanner::read_line() {
   line_ = text.substr(next_, longest_line);
   line_ = line_.substr(0, line_.find(line_end_));
   if (line_.size() == longest_line) fail("the line is longer than 64 MiB, this is not text");
-  next_ = std::min(next_ + line_.size() + 1, text.size());
+  end_ = next_ + line_.size();
+  next_ = std::min(end_ + 1, text.size());
   if (comment_ != '\0') line_ = line_.substr(0, line_.find(comment_));
   continued_ = cut_continuation();
   return true;
+}
+
+void Text_scanner::read_comment_as_text() {
+  if (line_.data() == nullptr) return;  // the line has ended
+  const auto text = file_->view();
+  const auto begin = static_cast<std::size_t>(line_.data() - text.data());
+  line_ = text.substr(begin, end_ - begin);
+  continued_ = cut_continuation();
 }
 
 bool Text_scanner::cut_continuation() {

@@ -33,6 +33,8 @@ class Text_scanner {
   std::string_view next_word();
   /// Next word of the current line or a later one; empty at the end of the file.
   std::string_view next_word_of_file();
+  /// Takes the comment of the current line as part of its rest, for names: the comment character can be in them.
+  void read_comment_as_text();
   void skip_rest_of_line() {
     line_ = {};
     continued_ = false;
@@ -65,6 +67,7 @@ class Text_scanner {
   std::size_t next_;             // offset of the next line
   std::size_t line_number_ = 0;  // from 1; 0 before the first line
   std::string_view line_;        // the unread rest of the current line
+  std::size_t end_ = 0;          // offset of the end of the current line, comment included
   bool continued_ = false;       // the current line goes on in the next one
 };
 

@@ -80,11 +80,19 @@ void copy_face(Text_scanner& text, Guarded_mesh& mesh, Farthest_corner& farthest
   ++mesh.faces;
 }
 
-/// The unread rest of the line, with single spaces.
-std::string rest_of_line(Text_scanner& text) {
-  std::string rest;
-  for (auto word = text.next_word(); !word.empty(); word = text.next_word()) (rest += rest.empty() ? "" : " ") += word;
-  return rest;
+/// The unread rest of the line, with single spaces. Many programs write names such as `Box#2`, so a comment begins only
+/// where a word does.
+std::string name_of_part(Text_scanner& text) {
+  text.read_comment_as_text();
+  std::string name;
+  for (auto word = text.next_word(); !word.empty(); word = text.next_word()) {
+    if (word.starts_with('#')) {
+      text.skip_rest_of_line();
+      break;
+    }
+    (name += name.empty() ? "" : " ") += word;
+  }
+  return name;
 }
 
 void skip_statement(const Text_scanner& text, std::string_view keyword, Guarded_mesh& mesh) {
@@ -106,7 +114,7 @@ void copy_statement(Text_scanner& text, Guarded_mesh& mesh, Farthest_corner& far
   } else if (!keyword.empty()) {
     skip_statement(text, keyword, mesh);
     if (keyword == "o" || keyword == "g")
-      begin_part(rest_of_line(text), static_cast<std::uint32_t>(mesh.faces), keyword == "o" ? mesh.parts : groups);
+      begin_part(name_of_part(text), static_cast<std::uint32_t>(mesh.faces), keyword == "o" ? mesh.parts : groups);
   }
 }
 

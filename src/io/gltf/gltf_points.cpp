@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "lodestone/mesh/errors.h"
@@ -132,16 +133,28 @@ std::vector<Eigen::Affine3d> joint_motions(const Gltf_skin& skin, const Posed_no
   return motions;
 }
 
-/// Where the joints and targets of each part start among those of all.
+/// Where the joints and targets of each part start among those of all. Parts with the same skin share its joints.
 struct Part_ranges {
-  std::vector<std::uint32_t> first_joint = {0}, first_target = {0};
+  std::vector<std::uint32_t> first_joint = {}, first_target = {0};
+  std::uint32_t joint_count = 0;
 
   explicit Part_ranges(const Gltf_scene& scene) {
+    std::vector<std::optional<std::uint32_t>> first_of_skin(scene.skins.size());
     for (const auto& part : scene.parts) {
-      const std::size_t joints = part.skin == no_index ? 1 : scene.skins[part.skin].joints.size();
-      first_joint.push_back(first_joint.back() + static_cast<std::uint32_t>(joints));
+      if (part.skin == no_index) {
+        first_joint.push_back(add_joints(1));
+      } else {
+        auto& first = first_of_skin[part.skin];
+        if (!first) first = add_joints(scene.skins[part.skin].joints.size());
+        first_joint.push_back(*first);
+      }
       first_target.push_back(first_target.back() + static_cast<std::uint32_t>(part.shape->targets.size()));
     }
+  }
+
+ private:
+  std::uint32_t add_joints(std::size_t count) {
+    return std::exchange(joint_count, joint_count + static_cast<std::uint32_t>(count));
   }
 };
 
@@ -154,7 +167,7 @@ class Gathering {
   }
 
   Skinned_points points() && {
-    return {Morphed_points(std::move(rest_), targets_), influences_, ranges_.first_joint.back()};
+    return {Morphed_points(std::move(rest_), targets_), influences_, ranges_.joint_count};
   }
 
  private:
@@ -201,7 +214,9 @@ class Gathering {
 }  // namespace
 
 Gltf_points::Gltf_points(std::shared_ptr<const Gltf_scene> scene, std::span<const std::uint32_t> vertices)
-    : scene_(std::move(scene)), points_(Gathering(*scene_, vertices).points()) {
+    : scene_(std::move(scene)),
+      first_joints_(Part_ranges(*scene_).first_joint),
+      points_(Gathering(*scene_, vertices).points()) {
   set_time(nullptr, 0);
 }
 
@@ -209,9 +224,11 @@ void Gltf_points::set_time(const Gltf_animation* animation, double time) {
   const auto posed = pose_nodes(*scene_, animation, time);
   std::vector<double> weights;
   std::vector<Eigen::Affine3d> joints;
-  for (const auto& part : scene_->parts) {
+  for (std::size_t number = 0; number < scene_->parts.size(); ++number) {
+    const Gltf_part& part = scene_->parts[number];
     const auto& own = posed.weights[part.node].empty() ? part.shape->weights : posed.weights[part.node];
     weights.insert(weights.end(), own.begin(), own.end());
+    if (first_joints_[number] < joints.size()) continue;  // an earlier part has the same skin
     if (part.skin == no_index) {
       joints.push_back(posed.to_world[part.node]);
     } else {

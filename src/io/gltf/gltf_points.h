@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/gltf/gltf_scene.h"
 #include "lodestone/mesh/skinned_points.h"
@@ -27,6 +28,7 @@ class Gltf_points {
 
  private:
   std::shared_ptr<const Gltf_scene> scene_;
+  std::vector<std::uint32_t> first_joints_;  ///< per part
   Skinned_points points_;
 };
 

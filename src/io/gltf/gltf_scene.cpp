@@ -400,27 +400,37 @@ bool is_gltf(const std::filesystem::path& file) {
 
 namespace {
 
-/// Whether a node turns what it places inside out, at rest.
-bool is_mirrored(const Gltf_scene& scene, std::size_t node) {
-  bool mirrored = false;
-  for (; node != no_index; node = scene.nodes[node].parent) {
-    const Gltf_place& place = scene.nodes[node].place;
-    const double determinant = place.matrix ? place.matrix->linear().determinant() : place.scale.prod();
-    mirrored ^= determinant < 0;
-  }
-  return mirrored;
+/// Whether a node turns inside out what its parent does not, at rest.
+bool is_turned(const Gltf_place& place) {
+  return (place.matrix ? place.matrix->linear().determinant() : place.scale.prod()) < 0;
 }
 
-/// Whether a part is turned inside out, at rest: glTF then gives the corners of faces the other way round. A skin does
-/// not care where its node is; it is turned where most of its joints turn it.
-bool is_mirrored(const Gltf_scene& scene, const Gltf_part& part) {
-  if (part.skin == no_index) return is_mirrored(scene, part.node);
-  const Gltf_skin& skin = scene.skins[part.skin];
-  std::size_t mirrored = 0;
-  for (std::size_t joint = 0; joint < skin.joints.size(); ++joint)
-    mirrored += is_mirrored(scene, skin.joints[joint]) != (skin.from_mesh[joint].linear().determinant() < 0) ? 1 : 0;
-  return 2 * mirrored > skin.joints.size();
-}
+/// Which parts are turned inside out, at rest: glTF then gives the corners of faces the other way round. All nodes, and
+/// all skins, are looked at once, since parts can share them. O(nodes + joints).
+class Mirrored_parts {
+ public:
+  explicit Mirrored_parts(const Gltf_scene& scene) : nodes_(scene.nodes.size()) {
+    for (const std::size_t node : scene.order) {
+      const std::size_t parent = scene.nodes[node].parent;
+      nodes_[node] = is_turned(scene.nodes[node].place) != (parent != no_index && nodes_[parent]);
+    }
+    for (const Gltf_skin& skin : scene.skins) skins_.push_back(is_turned(skin));
+  }
+  bool operator()(const Gltf_part& part) const {
+    return part.skin == no_index ? nodes_[part.node] : skins_[part.skin];
+  }
+
+ private:
+  /// A skin does not care where its node is; it is turned where most of its joints turn it.
+  bool is_turned(const Gltf_skin& skin) const {
+    std::size_t mirrored = 0;
+    for (std::size_t joint = 0; joint < skin.joints.size(); ++joint)
+      mirrored += nodes_[skin.joints[joint]] != (skin.from_mesh[joint].linear().determinant() < 0) ? 1 : 0;
+    return 2 * mirrored > skin.joints.size();
+  }
+
+  std::vector<bool> nodes_, skins_;
+};
 
 }  // namespace
 
@@ -447,9 +457,10 @@ Polygon_soup soup_of(std::shared_ptr<const Gltf_scene> scene) {
   } catch (const Bad_motion& error) {
     throw Bad_mesh(error.what());
   }
+  const Mirrored_parts is_mirrored(*scene);
   for (const auto& part : scene->parts) {
     begin_part(part.name, static_cast<std::uint32_t>(soup.faces.size()), soup.parts);
-    const bool mirrored = is_mirrored(*scene, part);
+    const bool mirrored = is_mirrored(part);
     for (auto [a, b, c] : part.shape->faces) {
       if (mirrored) std::swap(b, c);
       soup.faces.push_back({part.first_vertex + a, part.first_vertex + b, part.first_vertex + c});

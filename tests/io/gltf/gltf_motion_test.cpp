@@ -141,6 +141,23 @@ TEST_F(Gltf, skins_move_vertices_with_their_joints_and_not_with_the_node) {
   expect_near(at_rest(sample), {{0, 0, 0}, {1, 0, 2 * 127 / 255.0}, {1, 1, 2}, {0, 1, 2}});
 }
 
+TEST_F(Gltf, nodes_with_the_same_skin_share_its_joints) {
+  auto sample = rich_gltf();
+  sample.json.erase("animations");
+  sample.json["meshes"][0]["weights"] = {0, 0};
+  sample.json["nodes"][0].erase("children");
+  sample.json["nodes"][2]["translation"] = {1, 0, 2};
+  sample.json["scenes"] = {{{"nodes", {0, 1}}}};
+  const auto alone = at_rest(sample);
+  sample.json["nodes"].push_back({{"mesh", 0}, {"translation", {0, 0, 7}}});  // without the skin
+  sample.json["nodes"].push_back(sample.json["nodes"][0]);
+  sample.json["scenes"] = {{{"nodes", {0, 1, 3, 4}}}};
+  auto all = alone;
+  for (const Point& p : square_points) all.emplace_back(p.x(), p.y(), 7);
+  all.insert(all.end(), alone.begin(), alone.end());
+  expect_near(at_rest(sample), all);
+}
+
 TEST_F(Gltf, nodes_skins_and_morph_targets_work_together) {
   // At 1 s: weights 1 and 0; joint 0 turned by 180 degrees about z; joint 1 at (1, 1, 0) below it, scaled by 1.5.
   const auto root = [](double x, double y, double z) { return Point(-x, -y, z); };

@@ -212,6 +212,14 @@ TEST_F(Separated_objects, groups_are_parts_if_there_are_no_objects) {
             (std::vector<std::string>{"f\uFFFD", "f\uFFFD"}));
 }
 
+TEST_F(Separated_objects, names_of_parts_can_hold_what_begins_a_comment_elsewhere) {
+  const auto file = folder.write("parts.obj",
+                                 "v 0 0 0 # a comment\nv 1 0 0\nv 0 1 0\ng Mesh1  Box#1 Room\nf 1 2 3#another\n"
+                                 "g Mesh1 Box#2 Room # not of the name \\\nf 1 3 2\n");
+  EXPECT_EQ(names(separated_objects(read_object("x", file), Separate::parts)),
+            (std::vector<std::string>{"Mesh1 Box#1 Room", "Mesh1 Box#2 Room"}));
+}
+
 TEST_F(Separated_objects, parts_of_a_sequence_are_those_of_its_first_file) {
   const std::string faces = "o a\nf 1 2 3\no b\nf 4 5 6\n";
   for (const int x : {3, 4, 5})
