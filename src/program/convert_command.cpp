@@ -211,8 +211,9 @@ void report(const Convert_command& command, const Animation& original, const Ani
   note_faces_not_kept(command, animation);
   note_rounding(command, rounding);
   note_other_files(command, frames);
-  fmt::print("{}: {} of {} vertices\n", printable(command.output.string()), counted(frames, "frame"),
-             animation.vertices);
+  const auto written = files_of(command.output, frames);
+  const std::string names = written.size() == 1 ? written.front().string() : command.output.string();
+  fmt::print("{}: {} of {} vertices\n", printable(names), counted(frames, "frame"), animation.vertices);
 }
 
 }  // namespace

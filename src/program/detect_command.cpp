@@ -148,6 +148,17 @@ void print_computed_positions(const Detect_run& scene_run, const Detect_command&
     fmt::print("all objects were also posed as a whole, outside the times, for {}\n", fmt::join(options, ", "));
 }
 
+/// What is found of contacts is too long for a terminal.
+void note_unwritten(const Detect_command& command) {
+  if (!command.out.empty() || !command.html.empty() || !command.paraview.empty()) return;
+  std::vector<std::string_view> options;
+  if (command.options.contact_points) options.emplace_back("--points");
+  if (command.options.contact_normals) options.emplace_back("--normals");
+  if (command.options.exact.patches) options.emplace_back("--patches");
+  if (!options.empty())
+    note(fmt::format("what {} found is not written: --out, --html or --paraview write it", fmt::join(options, ", ")));
+}
+
 /// What the user reads on the terminal.
 void print_results(Detect_run& scene_run, const Detect_command& command) {
   if (command.json) return fmt::print("{}", json_text(scene_run.summary(), 2));
@@ -156,6 +167,7 @@ void print_results(Detect_run& scene_run, const Detect_command& command) {
   note_single_object(scene_run.scene(), command);
   note_unquoted_pattern(command);
   note_objects(scene_run);
+  note_unwritten(command);
   if (command.options.exact.containment || command.options.exact.parting) note_open_surfaces(scene_run.scene());
   scene_run.print();
   print_computed_positions(scene_run, command);

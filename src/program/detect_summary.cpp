@@ -124,6 +124,14 @@ std::optional<Object_pair> first_pair_to_meet(const Run_summary& summary) {
   return first;
 }
 
+/// What a mode that may miss something has missed, over all pairs.
+std::string truth_text(const Run_subject& subject, const Run_summary& summary) {
+  Score all;
+  for (const auto& [pair, results] : summary.pairs)
+    if (subject.has_truth(pair)) all.add(results.score);
+  return fmt::format("; truly {}, recall {:.3f}", counted(all.positives(), "colliding frame"), all.recall());
+}
+
 std::size_t count_passings(const Run_summary& summary) {
   std::size_t count = 0;
   for (const auto& [pair, results] : summary.pairs) count += results.passings;
@@ -342,6 +350,7 @@ std::string one_line_answer(const Run_subject& subject, const Run_summary& summa
     text += fmt::format("; first impact at {:.9g}, of {} and {}; {}", in_frames(*summary.pairs.at(*pair).first_impact),
                         subject.scene.objects[pair->a].name, subject.scene.objects[pair->b].name,
                         counted(count_passings(summary), "passing"));
+  if (subject.command.truth) text += truth_text(subject, summary);
   return text + "\n";
 }
 

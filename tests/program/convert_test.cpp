@@ -178,6 +178,11 @@ TEST_F(Convert, says_how_to_get_the_faces_that_a_point_cache_does_not_keep) {
   expect_success(run_program({"convert", mesh, path("c.pc2")}));
 }
 
+TEST_F(Convert, names_the_one_numbered_file_that_it_has_written) {
+  const auto one = run_program({"convert", path("f*.off"), path("one_##.obj"), "--frames", "0"});
+  EXPECT_EQ(one.out, path("one_00.obj") + ": 1 frame of 4 vertices\n");
+}
+
 TEST_F(Convert, counts_the_files_of_an_earlier_run_that_match_the_pattern) {
   const auto out = path("h/q_#.obj");
   expect_success(run_program({"convert", path("f*.off"), out}));

@@ -351,8 +351,17 @@ TEST_F(Detect, names_of_files_may_be_any_bytes) {
 TEST_F(Detect, quiet_prints_the_answer_alone) {
   const auto result = detect({write_meeting_tetrahedra({1}), "--quiet", "--truth"});
   expect_success(result);
-  EXPECT_EQ(result.out, "meeting: 1 colliding pair, first in frame 0, last in frame 0 of 1 frame\n");
+  EXPECT_EQ(result.out,
+            "meeting: 1 colliding pair, first in frame 0, last in frame 0 of 1 frame; truly 1 colliding frame, "
+            "recall 1.000\n");
   EXPECT_EQ(frames().size(), 1U);
+}
+
+TEST_F(Detect, what_is_asked_of_contacts_and_not_written_is_noted) {
+  const auto scene = write_meeting_tetrahedra({1});
+  const std::string note = "what --points, --normals found is not written: --out, --html or --paraview write it";
+  EXPECT_EQ(detect({scene, "--points", "--normals"}).err.find(note), std::string::npos);
+  EXPECT_NE(run_program({"detect", scene, "--points", "--normals"}).err.find(note), std::string::npos);
 }
 
 TEST_F(Detect, growth_may_be_infinite) {

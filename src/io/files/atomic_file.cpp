@@ -2,6 +2,7 @@
 #include "lodestone/io/files/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -48,6 +49,13 @@ void check_replaceable(const std::filesystem::path& target) {
     throw Bad_output(target.string() + ": is no regular file, which alone is replaced");
 }
 
+/// What others may not read stays so when it is replaced.
+void take_permissions(const std::filesystem::path& replaced, int descriptor) {
+  struct ::stat found {};
+  if (::lstat(replaced.c_str(), &found) == 0 && S_ISREG(found.st_mode))
+    std::ignore = ::fchmod(descriptor, found.st_mode & 0777U);
+}
+
 Atomic_file::Atomic_file(std::filesystem::path target, std::filesystem::path name)
     : target_(std::move(target)), name_(std::move(name)) {
   check_replaceable(target_);
@@ -62,6 +70,7 @@ Atomic_file::Atomic_file(std::filesystem::path target, std::filesystem::path nam
     if (descriptor_ < 0 && errno != EEXIST) break;
   }
   if (descriptor_ < 0) fail("cannot be created");
+  take_permissions(target_, descriptor_);
 }
 
 Atomic_file::~Atomic_file() {

@@ -166,9 +166,7 @@ class Gathering {
     for (std::uint32_t i = 0; i < vertices.size(); ++i) add(i, vertices[i]);
   }
 
-  Skinned_points points() && {
-    return {Morphed_points(std::move(rest_), targets_), influences_, ranges_.joint_count};
-  }
+  Skinned_points points() && { return {Morphed_points(std::move(rest_), targets_), influences_, ranges_.joint_count}; }
 
  private:
   /// @param i       index among the points

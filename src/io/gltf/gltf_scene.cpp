@@ -414,15 +414,13 @@ class Mirrored_parts {
       const std::size_t parent = scene.nodes[node].parent;
       nodes_[node] = is_turned(scene.nodes[node].place) != (parent != no_index && nodes_[parent]);
     }
-    for (const Gltf_skin& skin : scene.skins) skins_.push_back(is_turned(skin));
+    for (const Gltf_skin& skin : scene.skins) skins_.push_back(is_turned_by_joints(skin));
   }
-  bool operator()(const Gltf_part& part) const {
-    return part.skin == no_index ? nodes_[part.node] : skins_[part.skin];
-  }
+  bool operator()(const Gltf_part& part) const { return part.skin == no_index ? nodes_[part.node] : skins_[part.skin]; }
 
  private:
   /// A skin does not care where its node is; it is turned where most of its joints turn it.
-  bool is_turned(const Gltf_skin& skin) const {
+  bool is_turned_by_joints(const Gltf_skin& skin) const {
     std::size_t mirrored = 0;
     for (std::size_t joint = 0; joint < skin.joints.size(); ++joint)
       mirrored += nodes_[skin.joints[joint]] != (skin.from_mesh[joint].linear().determinant() < 0) ? 1 : 0;

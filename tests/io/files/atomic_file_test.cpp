@@ -113,6 +113,15 @@ TEST(Atomic_file, replaces_an_existing_file) {
   EXPECT_EQ(files_in(folder.path()), 1);
 }
 
+TEST(Atomic_file, has_the_permissions_of_the_file_that_it_replaces) {
+  const Temporary_folder folder;
+  const auto file = folder.write("private", "old");
+  constexpr auto owner = std::filesystem::perms::owner_read | std::filesystem::perms::owner_write;
+  std::filesystem::permissions(file, owner);
+  write_whole(file, "new");
+  EXPECT_EQ(std::filesystem::status(file).permissions(), owner);
+}
+
 TEST(Atomic_file, replaces_a_link_not_its_target) {
   const Temporary_folder folder;
   const auto elsewhere = folder.write("elsewhere", "mine");

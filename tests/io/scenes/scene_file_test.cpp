@@ -176,6 +176,14 @@ TEST(Read_scene, accepts_a_sequence_as_a_list_or_a_pattern_and_gets_its_length) 
   }
 }
 
+TEST(Read_scene, takes_the_file_that_a_pattern_names) {
+  const Temporary_folder folder;
+  folder.write("a#.off", tetrahedron_off(1)), folder.write("a2.off", tetrahedron_off(2));
+  folder.write("a3.off", tetrahedron_off(3));
+  EXPECT_EQ(read(folder, with_object(R"("mesh": "a2.off", "motion": {"sequence": "a#.off"})")).frames, 1U);
+  EXPECT_EQ(read(folder, with_object(R"("mesh": "a2.off", "motion": {"sequence": "a*.off"})")).frames, 2U);
+}
+
 TEST(Read_scene, lasts_as_long_as_the_shortest_motion_that_ends) {
   const Temporary_folder folder;
   for (int i = 1; i <= 3; ++i) folder.write("frame_" + std::to_string(i) + ".off", tetrahedron_off(i));
