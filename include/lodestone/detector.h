@@ -154,7 +154,8 @@ class Detector {
   ///     for (const auto& pair : detector.detect().pairs) gaps.push_back(detector.closest(pair.a, pair.b));
   ///
   /// What is changed by calls of the detector, say by `place` or `update`, is noticed all the same. Vertices that are
-  /// moved otherwise may go unnoticed: answers then mix where they were and where they are. Promises may overlap.
+  /// moved otherwise may go unnoticed: answers then mix where they were and where they are, and a coordinate that is
+  /// not finite can end the process. Promises may overlap.
   /// A `ray_tree` that is asked for meanwhile stays of use until then. The end of a promise counts as a use of the
   /// detector.
   /// @throws Bad_argument  another mode
@@ -237,7 +238,8 @@ class Detector {
   }
 
   /// Shows the contacts of two objects to a visitor, which may stop the walk: see `visit_contacts`. Mode `exact`, with
-  /// its tolerance; caps and collision filters do not apply. The visitor must not call the detector.
+  /// its tolerance; caps and collision filters do not apply. The visitor must neither call the detector nor move
+  /// vertices.
   /// @throws Bad_argument  no such object, one and the same, another mode
   /// @throws Bad_mesh      as `detect`
   template <Contact_visitor Visitor>

@@ -200,7 +200,7 @@ Given_mesh given_mesh(const py::object& mesh, const py::object& faces, const std
     const auto pair = py::reinterpret_borrow<py::tuple>(mesh);
     return {pair[0], pair[1]};
   }
-  throw Bad_argument(name + " must be vertices and faces, a tuple of the two, or an object that has both");
+  throw Bad_argument(name + " must be a tuple of vertices and faces, or an object that has both");
 }
 
 py::array_t<double> positions_array(Coordinates coordinates) {

@@ -12,6 +12,7 @@
 
 #include "io/files/small_text.h"
 #include "io/gltf/gltf_scene.h"
+#include "io/motion/gltf_motion.h"
 #include "lodestone/io/files/numbered_files.h"
 #include "lodestone/io/motion/animation_edits.h"
 #include "lodestone/io/results/animation_output.h"
@@ -157,6 +158,13 @@ void note_rounding(const Convert_command& command, const Float_rounding& roundin
                          : "move it to the origin first"));
 }
 
+/// Frames that are so far apart are read as keys between which there is motion.
+void note_slow_rate(const Convert_command& command, const Animation_output_options& options) {
+  if (is_gltf(command.output) && options.frames.size() > 1 && options.frames_per_second < fewest_keys_per_second)
+    note(fmt::format("{}: Lodestone reads glTF with fewer than {} frames per second at {} per second",
+                     command.output.string(), fewest_keys_per_second, usual_rate));
+}
+
 /// The user of a mesh, a sequence of meshes or a point cache has a mesh file with the faces, unless they were edited.
 void note_faces_not_kept(const Convert_command& command, const Animation& animation) {
   const bool are_edited = command.weld || command.subdivisions > 0;
@@ -233,7 +241,9 @@ int run(const Convert_command& command) {
     options.progress = [&](std::size_t done, std::size_t of) { progress(done, of); };
     write_animation(command.output, animation, options);
   }
-  if (!command.quiet) report(command, original, animation, options.frames.size(), rounding, farthest);
+  if (command.quiet) return exit_code::success;
+  note_slow_rate(command, options);
+  report(command, original, animation, options.frames.size(), rounding, farthest);
   return exit_code::success;
 }
 

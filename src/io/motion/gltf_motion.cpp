@@ -25,9 +25,6 @@
 namespace lodestone {
 namespace {
 
-/// Keys farther apart are not frames: the curves between them make the motion.
-constexpr double fewest_keys_per_second = 5;
-
 std::vector<std::string> names_in(const Gltf_scene& scene) {
   std::vector<std::string> names;
   for (const auto& animation : scene.animations) names.push_back(animation.name);
