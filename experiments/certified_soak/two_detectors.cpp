@@ -20,10 +20,10 @@ Detector_options in_mode(Mode mode, Detector_options options) {
   return options;
 }
 
-Pair_result result_of(const Frame& frame, Object_id a, Object_id b) {
+Pair_result result_of(const Frame& frame, Object_pair objects) {
   for (const auto& pair : frame.pairs)
-    if (pair.a == a && pair.b == b) return pair;
-  return {.a = a, .b = b};
+    if (pair.a == objects.a && pair.b == objects.b) return pair;
+  return {.a = objects.a, .b = objects.b};
 }
 
 /// What both modes must agree on, whichever contacts they list.
@@ -42,11 +42,17 @@ std::size_t most_listed(const Detector_options& options) {
 
 }  // namespace
 
+bool is_right(const Frame& found, const Frame& truth, Object_pair pair, const Detector_options& asked) {
+  const Pair_result one = result_of(found, pair), other = result_of(truth, pair);
+  if (!same_pair(one, other)) return false;
+  const auto listed = found.contacts(one), all = truth.contacts(other);
+  const std::size_t most = most_listed(asked);
+  if (asked.contacts == Contact_query::all && one.capped != (all.size() > most)) return false;
+  return listed.size() == std::min(all.size(), most) && std::ranges::includes(all, listed);
+}
+
 Two_detectors::Two_detectors(const Detector_options& options)
-    : query_(options.contacts),
-      most_(most_listed(options)),
-      certified_(in_mode(Mode::certified, options)),
-      exact_(in_mode(Mode::exact, options)) {}
+    : asked_(options), certified_(in_mode(Mode::certified, options)), exact_(in_mode(Mode::exact, options)) {}
 
 void Two_detectors::add(const Random_body& body) {
   body.add_to(exact_);
@@ -60,12 +66,12 @@ Two_detectors::Frame_check Two_detectors::detect() {
   Frame_check check{.meets_first = std::vector<bool>(count_)};
   for (Object_id a = 0; a < count_; ++a)
     for (Object_id b = a; b < count_; ++b) {
-      check.same &= same_answer(found, truth, a, b);
-      const bool collide = a != b && result_of(truth, a, b).collides;
+      check.same &= is_right(found, truth, {a, b}, asked_);
+      const bool collide = a != b && result_of(truth, {a, b}).collides;
       check.collides |= collide;
       if (a == 0) check.meets_first[b] = collide;
     }
-  if (query_ == Contact_query::all && most_ == all_of_them)
+  if (asked_.contacts == Contact_query::all && most_listed(asked_) == all_of_them)
     check.same &= found.face_pairs == truth.face_pairs && found.contact_points == truth.contact_points &&
                   found.patches.size() == truth.patches.size();
   return check;
@@ -76,14 +82,6 @@ std::size_t Two_detectors::violations() const {
   for (Object_id id = 0; id < count_; ++id)
     if (const Bounded_surface* surface = certified_.bounded(id)) sum += surface->violations();
   return sum;
-}
-
-bool Two_detectors::same_answer(const Frame& found, const Frame& truth, Object_id a, Object_id b) const {
-  const Pair_result one = result_of(found, a, b), other = result_of(truth, a, b);
-  if (!same_pair(one, other)) return false;
-  const auto listed = found.contacts(one), all = truth.contacts(other);
-  if (query_ == Contact_query::all && one.capped != (all.size() > most_)) return false;
-  return listed.size() == std::min(all.size(), most_) && std::ranges::includes(all, listed);
 }
 
 }  // namespace lodestone

@@ -9,6 +9,11 @@
 
 namespace lodestone {
 
+/// Whether an answer about a pair is what mode `exact` says, and lists as many of its contacts as were asked for.
+/// @param truth  lists all contacts
+/// @param asked  of `found`
+bool is_right(const Frame& found, const Frame& truth, Object_pair pair, const Detector_options& asked);
+
 /// The modes `certified` and `exact` on the same bodies.
 class Two_detectors {
  public:
@@ -37,10 +42,7 @@ class Two_detectors {
   std::size_t violations() const;
 
  private:
-  bool same_answer(const Frame& found, const Frame& truth, Object_id a, Object_id b) const;
-
-  Contact_query query_;
-  std::size_t most_;  ///< contacts of a pair that are listed
+  Detector_options asked_;
   Detector<> certified_, exact_;
   Object_id count_ = 0;
 };

@@ -92,12 +92,6 @@ std::vector<Face_pair> checked_within(const Posed_mesh& mesh, std::size_t& pairs
   return found;
 }
 
-std::size_t differences(const std::vector<Face_pair>& sorted_a, const std::vector<Face_pair>& sorted_b) {
-  std::vector<Face_pair> different;
-  std::ranges::set_symmetric_difference(sorted_a, sorted_b, std::back_inserter(different));
-  return different.size();
-}
-
 /// Checks two meshes in all their poses.
 class Round {
  public:
@@ -148,7 +142,7 @@ class Round {
 
   static void compare(const std::vector<Face_pair>& checked, const std::vector<Face_pair>& found, Soak_kind& kind) {
     kind.intersecting += checked.size();
-    kind.differences += differences(checked, found);
+    kind.differences += count_differences(checked, found);
   }
 
   const std::array<Soak_mesh, 2>& meshes_;
@@ -158,6 +152,12 @@ class Round {
 };
 
 }  // namespace
+
+std::size_t count_differences(std::span<const Face_pair> sorted_a, std::span<const Face_pair> sorted_b) {
+  std::vector<Face_pair> different;
+  std::ranges::set_symmetric_difference(sorted_a, sorted_b, std::back_inserter(different));
+  return different.size();
+}
 
 std::size_t soak_kinds() { return soak_recipes().size(); }
 

@@ -4,8 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string_view>
 #include <vector>
+
+#include "lodestone/mesh/pairs.h"
 
 namespace lodestone {
 
@@ -40,5 +43,8 @@ Soak_result soak(std::uint64_t seed, std::size_t pairs, const std::function<void
 Soak_kind soak_one_kind(std::uint64_t seed, std::size_t kind, std::size_t share,
                         const std::function<void(std::size_t)>& progress = {});
 std::size_t soak_kinds();
+
+/// Face pairs that only one of two lists has, or that one has more often than the other.
+std::size_t count_differences(std::span<const Face_pair> sorted_a, std::span<const Face_pair> sorted_b);
 
 }  // namespace lodestone

@@ -246,6 +246,16 @@ void Bounded_surface::take_refitted() {
   violations_settled_ = violations_;
 }
 
+void Bounded_surface::compare_refitted() {
+  if (bounds_.empty()) return;
+  const auto compare = [&](std::uint32_t node) {
+    if (!contains(box_from_bounds(node), boxes_[node])) ++violations_;
+  };
+  compare(0);
+  for (std::uint32_t leaf = 0; compares_all_ && leaf < layout().leaf_count(); ++leaf) compare(layout().leaf_node(leaf));
+  violations_settled_ = violations_;  // all boxes are fitted
+}
+
 void Bounded_surface::note_refitted() {
   for (const auto& bound : bounds_)
     if (!note_all(*bound)) ++violations_;

@@ -150,13 +150,12 @@ void print_computed_positions(const Detect_run& scene_run, const Detect_command&
 
 /// What is found of contacts is too long for a terminal.
 void note_unwritten(const Detect_command& command) {
-  if (!command.out.empty() || !command.html.empty() || !command.paraview.empty()) return;
+  if (!command.out.empty() || !command.html.empty()) return;
   std::vector<std::string_view> options;
   if (command.options.contact_points) options.emplace_back("--points");
   if (command.options.contact_normals) options.emplace_back("--normals");
   if (command.options.exact.patches) options.emplace_back("--patches");
-  if (!options.empty())
-    note(fmt::format("what {} found is not written: --out, --html or --paraview write it", fmt::join(options, ", ")));
+  if (!options.empty()) note(fmt::format("only --out and --html tell what was found for {}", fmt::join(options, ", ")));
 }
 
 /// What the user reads on the terminal.

@@ -542,14 +542,29 @@ TEST_F(Promises_about_rest, wait_until_the_mesh_can_be_read) {
   expect_true_promise_and_contact();
 }
 
-/// Its bound is made by the first query about it.
-TEST_F(Promises_about_rest, that_are_broken_before_their_bound_is_made_are_counted) {
-  const Stretch_promise rigid;
-  certified.promise(0, rigid);
-  certified.detect(1, 2);  // a is at rest now
-  deform(a, [](const Point& p) { return Point(3 * p.x(), p.y(), p.z()); });
-  EXPECT_GT(certified.detect().statistics.violations, 0U);
-  EXPECT_EQ(certified.detect().statistics.violations, 0U);  // nobody has moved, so nothing is read
+/// Its bound is made by the first query about the object.
+template <class Promise>
+void expect_that_it_is_noticed_before_its_bound_is_made(const Promise& rigid) {
+  for (const bool throws : {false, true}) {
+    Surface_mesh a = icosphere(3), b = icosphere(3), c = icosphere(2);
+    shift(b, 50), shift(c, 90);
+    Detector certified({.mode = Mode::certified, .exact = {.throw_if_broken = throws}});
+    for (const auto* mesh : {&a, &b, &c}) certified.add(*mesh);
+    certified.promise(0, rigid);
+    certified.detect(1, 2);  // a is at rest now
+    deform(a, [](const Point& p) { return Point(3 * p.x(), p.y(), p.z()); });
+    if (throws) {
+      EXPECT_THROW(certified.save(0), Broken_bound);
+    } else {
+      EXPECT_GT(certified.detect().statistics.violations, 0U);
+    }
+  }
+}
+
+TEST(Certified, promises_that_are_broken_before_their_bound_is_made_are_noticed) {
+  expect_that_it_is_noticed_before_its_bound_is_made(Stretch_promise());
+  expect_that_it_is_noticed_before_its_bound_is_made(Lipschitz_promise());
+  expect_that_it_is_noticed_before_its_bound_is_made(Box_promise([](Region_index, const Aabb& rest) { return rest; }));
 }
 
 /// Moves the vertices of a grid up and down so far that its leaves are much larger than before.

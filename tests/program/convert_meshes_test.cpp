@@ -111,7 +111,8 @@ TEST_F(Convert_meshes, objects_of_scenes_are_converted_where_they_are_placed) {
   EXPECT_EQ(square.mesh.point(Surface_mesh::Vertex_index(0)), Point(5, 0, 0));
   EXPECT_EQ(convert(scene + "#teapot", "teapot.ply").mesh.number_of_faces(), 5680U);
   expect_error(run_program({"convert", scene, path("b.obj")}), 2, "#NAME: square, teapot");
-  expect_error(run_program({"convert", scene + "#kettle", path("b.obj")}), 2, "no object 'kettle', but square, teapot");
+  expect_error(run_program({"convert", scene + "#kettle", path("b.obj")}), 2,
+               "no object 'kettle'; its objects are square, teapot");
 }
 
 TEST_F(Convert_meshes, built_in_shapes_are_converted) {

@@ -352,14 +352,24 @@ TEST_F(Detect, quiet_prints_the_answer_alone) {
   const auto result = detect({write_meeting_tetrahedra({1}), "--quiet", "--truth"});
   expect_success(result);
   EXPECT_EQ(result.out,
-            "meeting: 1 colliding pair, first in frame 0, last in frame 0 of 1 frame; truly 1 colliding frame, "
-            "recall 1.000\n");
+            "meeting: 1 colliding pair, first in frame 0, last in frame 0 of 1 frame; truth: 1 colliding frame, summed "
+            "over the pairs, 1 found\n");
   EXPECT_EQ(frames().size(), 1U);
+}
+
+TEST_F(Detect, quiet_tells_what_was_missed_in_all_pairs) {
+  const auto square = write("square.off", square_off);
+  const auto result =
+      run_program({"detect", square, write("needle.off", needle(0.7, 0.2)), square, "--truth", "--quiet", "--meetings",
+                   "0", "--mode", "particles", "--collision-distance", "0.001"});
+  expect_success(result);
+  EXPECT_NE(result.out.find("; truth: 3 colliding frames, summed over the pairs, 1 found"), std::string::npos)
+      << result.out;
 }
 
 TEST_F(Detect, what_is_asked_of_contacts_and_not_written_is_noted) {
   const auto scene = write_meeting_tetrahedra({1});
-  const std::string note = "what --points, --normals found is not written: --out, --html or --paraview write it";
+  const std::string note = "only --out and --html tell what was found for --points, --normals";
   EXPECT_EQ(detect({scene, "--points", "--normals"}).err.find(note), std::string::npos);
   EXPECT_NE(run_program({"detect", scene, "--points", "--normals"}).err.find(note), std::string::npos);
 }

@@ -84,6 +84,9 @@ class Bounded_surface {
   void forget_pose() { pose_ = 0; }
   /// Starts a frame to whose positions the tree has just been refitted. O(F).
   void take_refitted();
+  /// Compares bounds that have just been made with the positions that were taken: what they say may be broken already.
+  /// Asks for the box of the whole; with `compare_all` also for those of all leaves.
+  void compare_refitted();
 
   /// How the faces are grouped.
   const Tree_layout& layout() const { return tree_->tree(); }

@@ -222,6 +222,7 @@ void Exact_object<Volume>::make_bounds(bool compare_all, Workers& workers) {
     made->take_refitted();
     bounded_ = std::move(made);
     lacks_bounds_ = !is_known;
+    if (on_demand()) bounded_->compare_refitted();
   }
 }
 

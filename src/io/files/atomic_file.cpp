@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <system_error>
 #include <tuple>
 
@@ -36,6 +37,13 @@ bool is_of_the_system(std::filesystem::path name) {
   return false;
 }
 
+/// Of the file that is replaced; none where there is none.
+std::optional<mode_t> permissions_of(const std::filesystem::path& replaced) {
+  struct ::stat found {};
+  if (::lstat(replaced.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return std::nullopt;
+  return found.st_mode & 0777U;
+}
+
 }  // namespace
 
 void check_replaceable(const std::filesystem::path& target) {
@@ -49,28 +57,22 @@ void check_replaceable(const std::filesystem::path& target) {
     throw Bad_output(target.string() + ": is no regular file, which alone is replaced");
 }
 
-/// What others may not read stays so when it is replaced.
-void take_permissions(const std::filesystem::path& replaced, int descriptor) {
-  struct ::stat found {};
-  if (::lstat(replaced.c_str(), &found) == 0 && S_ISREG(found.st_mode))
-    std::ignore = ::fchmod(descriptor, found.st_mode & 0777U);
-}
-
 Atomic_file::Atomic_file(std::filesystem::path target, std::filesystem::path name)
     : target_(std::move(target)), name_(std::move(name)) {
   check_replaceable(target_);
   if (target_.has_parent_path()) made_folders_.emplace(target_.parent_path());
+  const auto permissions = permissions_of(name_);
   // O_EXCL: never opens an existing file or link, which another user may have put there.
   for (int attempt = 0; descriptor_ < 0 && attempt < 100; ++attempt) {
     temporary_ = target_;
     // The name can be as long as names may be.
     temporary_.replace_filename("." + target_.filename().string().substr(0, 200) + "." + std::to_string(::getpid()) +
                                 "." + std::to_string(attempt));
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions ? 0600 : 0666);
     if (descriptor_ < 0 && errno != EEXIST) break;
   }
   if (descriptor_ < 0) fail("cannot be created");
-  take_permissions(target_, descriptor_);
+  if (permissions) std::ignore = ::fchmod(descriptor_, *permissions);  // else it is readable by its owner alone
 }
 
 Atomic_file::~Atomic_file() {

@@ -34,6 +34,7 @@ std::errc parse(std::string_view word, Number& value) {
 }  // namespace
 
 bool Text_scanner::next_line() {
+  comment_is_text_ = false;
   while (continued_) read_line();  // what the caller has not read of the last one
   while (read_line())
     if (continued_ || line_.find_first_not_of(blanks) != std::string_view::npos) return true;
@@ -58,12 +59,13 @@ bool Text_scanner::read_line() {
   if (line_.size() == longest_line) fail("the line is longer than 64 MiB, this is not text");
   end_ = next_ + line_.size();
   next_ = std::min(end_ + 1, text.size());
-  if (comment_ != '\0') line_ = line_.substr(0, line_.find(comment_));
+  if (comment_ != '\0' && !comment_is_text_) line_ = line_.substr(0, line_.find(comment_));
   continued_ = cut_continuation();
   return true;
 }
 
 void Text_scanner::read_comment_as_text() {
+  comment_is_text_ = true;
   if (line_.data() == nullptr) return;  // the line has ended
   const auto text = file_->view();
   const auto begin = static_cast<std::size_t>(line_.data() - text.data());

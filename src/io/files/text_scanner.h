@@ -33,11 +33,12 @@ class Text_scanner {
   std::string_view next_word();
   /// Next word of the current line or a later one; empty at the end of the file.
   std::string_view next_word_of_file();
-  /// Takes the comment of the current line as part of its rest, for names: the comment character can be in them.
+  /// Takes the comment of the current line, and of those in which it goes on, as part of its rest, for names: the
+  /// comment character can be in them.
   void read_comment_as_text();
   void skip_rest_of_line() {
     line_ = {};
-    continued_ = false;
+    continued_ = comment_is_text_ = false;
   }
 
   /// Offset in bytes of the first unread line.
@@ -69,6 +70,7 @@ class Text_scanner {
   std::string_view line_;        // the unread rest of the current line
   std::size_t end_ = 0;          // offset of the end of the current line, comment included
   bool continued_ = false;       // the current line goes on in the next one
+  bool comment_is_text_ = false;
 };
 
 }  // namespace lodestone

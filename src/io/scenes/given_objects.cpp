@@ -95,8 +95,8 @@ Scene_object object_of_scene(const std::filesystem::path& file, const std::strin
     if (name.empty())
       throw Bad_argument(
           fmt::format("{0}: name one object of the scene, as {0}#NAME: {1}", file.string(), fmt::join(names, ", ")));
-    throw Bad_argument(
-        fmt::format("{}: the scene has no object {}, but {}", file.string(), in_quotes(name), fmt::join(names, ", ")));
+    throw Bad_argument(fmt::format("{}: the scene has no object {}; its objects are {}", file.string(), in_quotes(name),
+                                   fmt::join(names, ", ")));
   }
   auto& motion = found->motion;
   motion.frames = motion.frames == 0 ? scene.frames : std::min(motion.frames, scene.frames);

@@ -63,7 +63,7 @@ std::vector<fs::path> Scene_folder::files_of_pattern(const Json_value& value) {
   const std::string pattern = value.text();
   const fs::path alone = path_of(pattern, value);
   // A file of that name is meant, as in a command.
-  if (std::error_code ignored; fs::is_regular_file(alone, ignored)) return {alone};
+  if (std::error_code ignored; is_pattern(alone) && fs::is_regular_file(alone, ignored)) return {alone};
   std::vector<fs::path> files;
   for (const auto& found : value.checked([&] { return find_numbered_files(folder_ / pattern); }))
     files.push_back(path_of((fs::path(pattern).parent_path() / found.filename()).string(), value));

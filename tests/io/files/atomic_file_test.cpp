@@ -10,6 +10,7 @@
 #include <string>
 
 #include "lodestone/io/files/atomic_file.h"
+#include "lodestone/io/files/atomic_files.h"
 #include "lodestone/mesh/errors.h"
 #include "support/read_file.h"
 #include "support/temporary_folder.h"
@@ -120,6 +121,12 @@ TEST(Atomic_file, has_the_permissions_of_the_file_that_it_replaces) {
   std::filesystem::permissions(file, owner);
   write_whole(file, "new");
   EXPECT_EQ(std::filesystem::status(file).permissions(), owner);
+  Atomic_files files(folder.path());
+  Atomic_file one = files.open("private");
+  one.commit();
+  files.commit();
+  EXPECT_EQ(std::filesystem::status(file).permissions(), owner);
+  EXPECT_EQ(std::filesystem::file_size(file), 0U);
 }
 
 TEST(Atomic_file, replaces_a_link_not_its_target) {

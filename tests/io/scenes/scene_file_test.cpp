@@ -182,6 +182,7 @@ TEST(Read_scene, takes_the_file_that_a_pattern_names) {
   folder.write("a3.off", tetrahedron_off(3));
   EXPECT_EQ(read(folder, with_object(R"("mesh": "a2.off", "motion": {"sequence": "a#.off"})")).frames, 1U);
   EXPECT_EQ(read(folder, with_object(R"("mesh": "a2.off", "motion": {"sequence": "a*.off"})")).frames, 2U);
+  EXPECT_THROW(read(folder, with_object(R"("mesh": "a2.off", "motion": {"sequence": "a2.off"})")), Bad_scene);
 }
 
 TEST(Read_scene, lasts_as_long_as_the_shortest_motion_that_ends) {

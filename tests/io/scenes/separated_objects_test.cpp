@@ -215,9 +215,10 @@ TEST_F(Separated_objects, groups_are_parts_if_there_are_no_objects) {
 TEST_F(Separated_objects, names_of_parts_can_hold_what_begins_a_comment_elsewhere) {
   const auto file = folder.write("parts.obj",
                                  "v 0 0 0 # a comment\nv 1 0 0\nv 0 1 0\ng Mesh1  Box#1 Room\nf 1 2 3#another\n"
-                                 "g Mesh1 Box#2 Room # not of the name \\\nf 1 3 2\n");
+                                 "g Mesh1 Box#2 Room # not of the name \\\nf 1 3 2\n"
+                                 "g \\\nBox#3 \\\nof#it\nf 1 2 3#x\n");
   EXPECT_EQ(names(separated_objects(read_object("x", file), Separate::parts)),
-            (std::vector<std::string>{"Mesh1 Box#1 Room", "Mesh1 Box#2 Room"}));
+            (std::vector<std::string>{"Mesh1 Box#1 Room", "Mesh1 Box#2 Room", "Box#3 of#it"}));
 }
 
 TEST_F(Separated_objects, parts_of_a_sequence_are_those_of_its_first_file) {

@@ -15,13 +15,14 @@ namespace lodestone {
 void check_replaceable(const std::filesystem::path& target);
 
 /// A file that appears whole or not at all: written under a temporary name in the same folder, renamed by `commit`. A
-/// symbolic link of that name is replaced, and what it leads to stays as it is: another user may have made the link.
+/// symbolic link of that name is replaced, and what it leads to stays as it is: another user may have made the link. A
+/// file that is replaced leaves its permissions to the new one.
 class Atomic_file {
  public:
   /// Creates the folder if it is missing.
   /// @throws Bad_output  the folder or the file cannot be created, the target is no file
   explicit Atomic_file(const std::filesystem::path& target) : Atomic_file(target, target) {}
-  /// @param name  what errors call it
+  /// @param name  where it is to lie in the end: what errors call it, and whose permissions it takes
   Atomic_file(std::filesystem::path target, std::filesystem::path name);
   Atomic_file(const Atomic_file&) = delete;
   Atomic_file& operator=(const Atomic_file&) = delete;
