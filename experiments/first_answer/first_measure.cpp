@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "lodestone/detector.h"
 #include "peers/peer.h"
@@ -23,13 +24,6 @@ namespace {
 constexpr double enough_seconds = 1;
 /// Frames after the first answer, per round.
 constexpr std::size_t frames_per_round = 3;
-
-/// The answers that are right, by mode exact: the experiment `every_frame` checks that mode.
-std::vector<Face_pair> truth_of(const Once_scene& scene) {
-  Detector<> detector;
-  detector.add(scene.a), detector.add(scene.b);
-  return detector.detect(0, 1).face_pairs;
-}
 
 /// How much more memory is resident at most, while `ask` runs, than before.
 template <class Ask>
@@ -52,6 +46,22 @@ class Kept_positions {
   std::vector<Point> points_;
 };
 
+using Truth = std::vector<Face_pair>;
+
+/// The right answers to the first question of a round and in its frames, by mode exact: the experiment `every_frame`
+/// checks that mode.
+std::vector<Truth> truths_of(Once_scene& scene) {
+  const Kept_positions kept(scene.b);
+  Detector<> detector;
+  detector.add(std::as_const(scene.a)), detector.add(std::as_const(scene.b));
+  std::vector<Truth> truths{detector.detect(0, 1).face_pairs};
+  for (std::size_t frame = 0; frame < frames_per_round; ++frame) {
+    scene.step();
+    truths.push_back(detector.detect(0, 1).face_pairs);
+  }
+  return truths;
+}
+
 /// One question to one contestant on one scene.
 class Asker {
  public:
@@ -65,15 +75,16 @@ class Asker {
     return Once_times{.first = median(firsts_), .frame = median(frames_)};
   }
 
-  /// @return whether the answer is right
+  /// @param truths  of `truths_of`
+  /// @return whether all answers are right
   /// @throws Gave_up
-  bool play_round(std::span<const Face_pair> truth) {
+  bool play_round(std::span<const Truth> truths) {
     const Lap_timer timer;
     const auto session = contestant_.begin(scene_.a, scene_.b, query_);
     ask(*session);
     const double first = timer.seconds();
-    const bool right = is_right(truth);
-    const std::vector<double> frames = seconds_of_frames(*session);
+    bool right = is_right(truths.front());
+    const std::vector<double> frames = seconds_of_frames(*session, truths.subspan(1), right);
     firsts_.push_back(first);
     frames_.insert(frames_.end(), frames.begin(), frames.end());
     spent_ = std::accumulate(frames.begin(), frames.end(), spent_ + first);
@@ -88,19 +99,21 @@ class Asker {
     else
       any_ = session.any();
   }
-  std::vector<double> seconds_of_frames(Session& session) {
+  /// @param right  becomes false where an answer is wrong
+  std::vector<double> seconds_of_frames(Session& session, std::span<const Truth> truths, bool& right) {
     std::vector<double> seconds;
     const Kept_positions kept(scene_.b);
-    for (std::size_t frame = 0; frame < frames_per_round; ++frame) {
+    for (const Truth& truth : truths) {
       scene_.step();
       const Lap_timer lap;
       session.update();
       ask(session);
       seconds.push_back(lap.seconds());
+      right &= is_right(truth);
     }
     return seconds;
   }
-  bool is_right(std::span<const Face_pair> truth) {
+  bool is_right(const Truth& truth) {
     if (query_ != Contact_query::all) return any_ == !truth.empty();
     std::ranges::sort(found_);
     return std::ranges::equal(found_, truth);
@@ -116,7 +129,7 @@ class Asker {
 };
 
 /// Asks one question to all contestants that report the answer.
-void ask_all(Once_scene& scene, Contact_query query, std::span<const Face_pair> truth,
+void ask_all(Once_scene& scene, Contact_query query, std::span<const Truth> truths,
              std::optional<Once_times> Once_figures::*times, std::size_t most_rounds,
              std::vector<Once_figures>& figures) {
   std::vector<Asker> askers;
@@ -127,7 +140,7 @@ void ask_all(Once_scene& scene, Contact_query query, std::span<const Face_pair> 
       const bool reported = query != Contact_query::all || f.contestant->reports_pairs;
       if (f.left_out || f.gave_up || !reported || askers[i].done()) continue;
       try {
-        f.right &= askers[i].play_round(truth);
+        f.right &= askers[i].play_round(truths);
       } catch (const Gave_up&) {
         f.gave_up = true;
       }
@@ -145,7 +158,7 @@ std::optional<std::size_t> pays_from(const Once_times& session, const Once_times
 
 std::vector<Once_figures> measure_first_answers(Once_scene& scene, std::span<const Once_contestant> contestants,
                                                 const std::vector<bool>& left_out, std::size_t most_rounds) {
-  const auto truth = truth_of(scene);
+  const auto truths = truths_of(scene);
   std::vector<Once_figures> figures;
   for (std::size_t i = 0; i < contestants.size(); ++i) {
     Once_figures& f = figures.emplace_back(Once_figures{.contestant = &contestants[i], .left_out = left_out[i]});
@@ -156,8 +169,8 @@ std::vector<Once_figures> measure_first_answers(Once_scene& scene, std::span<con
       f.gave_up = true;
     }
   }
-  ask_all(scene, Contact_query::yes_no, truth, &Once_figures::any, most_rounds, figures);
-  ask_all(scene, Contact_query::all, truth, &Once_figures::all, most_rounds, figures);
+  ask_all(scene, Contact_query::yes_no, truths, &Once_figures::any, most_rounds, figures);
+  ask_all(scene, Contact_query::all, truths, &Once_figures::all, most_rounds, figures);
   return figures;
 }
 

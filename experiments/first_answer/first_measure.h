@@ -26,7 +26,7 @@ struct Once_figures {
   std::size_t peak_bytes = 0;                    ///< more resident memory than before, at most, for the first yes or no
   bool left_out = false;                         ///< was too slow in a smaller scene
   bool gave_up = false;
-  bool right = true;  ///< all answers were
+  bool right = true;  ///< all answers were, the first and those of later frames
 };
 
 /// From which frame on a session is faster in all than one call per frame. None: never.

@@ -21,9 +21,17 @@ namespace {
 using Triangle_3 = Kernel::Triangle_3;
 using Face_box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
 
+/// From the list of corners, or from the mesh itself where there is no list.
+Corners corners_of(const Moving_mesh& mesh, std::uint32_t face) {
+  if (!mesh.corners.empty()) return mesh.corners[face];
+  const auto h = mesh.mesh->halfedge(Surface_mesh::Face_index(face));
+  const auto next = mesh.mesh->next(h);
+  return {mesh.mesh->source(h).idx(), mesh.mesh->target(h).idx(), mesh.mesh->target(next).idx()};
+}
+
 Triangle_3 triangle(const Moving_mesh& mesh, std::uint32_t face) {
   const auto points = mesh.points();
-  const auto& [p, q, r] = mesh.corners[face];
+  const auto [p, q, r] = corners_of(mesh, face);
   return {points[p], points[q], points[r]};
 }
 
@@ -107,16 +115,23 @@ class Tree_peer : public Peer {
 struct Found_one {};
 
 /// `CGAL::box_intersection_d` on boxes around the faces: all faces, or those inside the overlap of the objects' boxes.
+/// Of meshes that come without lists of corners, the first query reads the faces that it needs where they are; those of
+/// the next frames read lists.
 template <bool culled>
 class Boxes_peer : public Peer {
  public:
   void add(const Moving_mesh& mesh) override {
-    objects_.push_back({mesh, {}});
-    update(objects_.size() - 1);
+    objects_.push_back({.mesh = mesh});
+    read_bounds(objects_.back());
   }
 
-  void update(std::size_t object) override {
-    if (culled) objects_[object].bounds = read_every_vertex(objects_[object].mesh.coordinates());
+  void update(std::size_t index) override {
+    Object& object = objects_[index];
+    if (object.mesh.corners.empty()) {
+      object.numbering = std::make_unique<Mesh_numbering<Surface_mesh>>(*object.mesh.mesh);
+      object.mesh.corners = object.numbering->corners();
+    }
+    read_bounds(object);
   }
 
   bool any(std::size_t a, std::size_t b) override {
@@ -135,8 +150,13 @@ class Boxes_peer : public Peer {
  private:
   struct Object {
     Moving_mesh mesh;
-    Box bounds;
+    Box bounds = {};
+    std::unique_ptr<Mesh_numbering<Surface_mesh>> numbering = nullptr;
   };
+
+  static void read_bounds(Object& object) {
+    if (culled) object.bounds = read_every_vertex(object.mesh.coordinates());
+  }
 
   template <class Visitor>
   void visit(std::size_t a, std::size_t b, const Visitor& visitor) {
@@ -155,8 +175,8 @@ class Boxes_peer : public Peer {
   static void make_boxes(const Moving_mesh& mesh, const Box& overlap, std::vector<Face_box>& boxes) {
     const auto points = mesh.points();
     boxes.clear();
-    for (std::uint32_t face = 0; face < mesh.corners.size(); ++face) {
-      const auto& [p, q, r] = mesh.corners[face];
+    for (std::uint32_t face = 0; face < mesh.mesh->number_of_faces(); ++face) {
+      const auto [p, q, r] = corners_of(mesh, face);
       std::array<double, 3> low, high;
       for (int axis = 0; axis < 3; ++axis) {
         low[axis] = std::min({points[p][axis], points[q][axis], points[r][axis]});
@@ -187,9 +207,11 @@ std::vector<Peer_kind> cgal_peers() {
            .takes_meshes = true},
           {.entry = {.library = library, .method = "AABB_tree, rebuilt", .volume = "AABB"}, .make = make<Tree_peer>},
           {.entry = {.library = library, .method = "box_intersection_d, all faces", .volume = no_tree},
-           .make = make<Boxes_peer<false>>},
+           .make = make<Boxes_peer<false>>,
+           .takes_meshes = true},
           {.entry = {.library = library, .method = "box_intersection_d, overlap only", .volume = no_tree},
-           .make = make<Boxes_peer<true>>}};
+           .make = make<Boxes_peer<true>>,
+           .takes_meshes = true}};
 }
 
 }  // namespace lodestone

@@ -43,7 +43,7 @@ class Peer {
 struct Peer_kind {
   Entry entry;  ///< without `build`, which `all_entries` adds
   std::unique_ptr<Peer> (*make)() = nullptr;
-  bool takes_meshes = false;  ///< as they are, and does not read `Moving_mesh::corners`
+  bool takes_meshes = false;  ///< as they are: can do without `Moving_mesh::corners`
 };
 
 /// The kinds of each library. Each function has a file of its own, and only that file includes the library's headers.

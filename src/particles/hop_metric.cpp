@@ -38,6 +38,9 @@ class Hop_search {
     return farthest;
   }
 
+  /// Of one search in a graph of one component: what it visits.
+  std::size_t cost() const { return num_vertices(graph_) + num_edges(graph_); }
+
   /// The targets by component, in their order; components in the order of their first targets. O(V + E).
   std::vector<std::vector<std::uint32_t>> by_component(std::span<const std::uint32_t> targets) {
     std::vector<std::vector<std::uint32_t>> groups;
@@ -86,7 +89,7 @@ class Known_hops {
   void add(std::vector<std::uint32_t> hops) { rows_.push_back(std::move(hops)); }
 
   /// How many of the others may be farther than `most` from a target; counts up to 64.
-  std::size_t count_undecided(std::size_t target, std::span<const std::size_t> others, std::size_t most) const {
+  std::size_t count_undecided(std::size_t target, std::span<const std::size_t> others, std::size_t most) {
     std::size_t count = 0;
     for (const auto other : others) {
       if (other != target && may_exceed(target, other, most)) ++count;
@@ -95,14 +98,21 @@ class Known_hops {
     return count;
   }
 
+  /// Sums of hops that have been compared so far.
+  std::size_t comparisons() const { return comparisons_; }
+
  private:
   /// Whether the hops between two targets can be more than `most`. By the triangle inequality they cannot if there are
   /// at most so many by way of the source of a search.
-  bool may_exceed(std::size_t a, std::size_t b, std::size_t most) const {
-    return std::ranges::all_of(rows_, [&](const auto& hops) { return std::size_t{hops[a]} + hops[b] > most; });
+  bool may_exceed(std::size_t a, std::size_t b, std::size_t most) {
+    return std::ranges::all_of(rows_, [&](const auto& hops) {
+      ++comparisons_;
+      return std::size_t{hops[a]} + hops[b] > most;
+    });
   }
 
   std::vector<std::vector<std::uint32_t>> rows_;  ///< per search, per target
+  std::size_t comparisons_ = 0;
 };
 
 }  // namespace
@@ -119,16 +129,26 @@ std::vector<std::uint32_t> breadth_first_hops(const Vertex_graph& graph, std::ui
 namespace {
 
 /// The largest hop distance of targets of one component, or `diameter` if none is larger.
+///
+/// On a torus many pairs are nearly the farthest, and searches decide little about others. Once it has taken as long to
+/// compare as to search from all targets that are left, these are searched from.
 std::size_t larger_diameter(Hop_search& search, std::span<const std::uint32_t> targets, std::size_t diameter) {
   if (targets.size() < 2) return diameter;
   Known_hops known;
   std::vector<std::size_t> undecided(targets.size());  // may be farther from another one than the diameter so far
   std::iota(undecided.begin(), undecided.end(), 0);
-  for (std::size_t source = 0; !undecided.empty();) {
+  const auto search_from = [&](std::size_t source) {
     auto hops = search.hops_from(targets[source], targets);
     diameter = std::max<std::size_t>(diameter, std::ranges::max(hops));
-    known.add(std::move(hops));
+    return hops;
+  };
+  for (std::size_t source = 0; !undecided.empty();) {
+    known.add(search_from(source));
     std::erase(undecided, source);
+    if (known.comparisons() > undecided.size() * search.cost()) {
+      for (const auto target : undecided) search_from(target);
+      break;
+    }
 
     // Next comes the target that may be far from the most others.
     std::vector<std::size_t> still_undecided;

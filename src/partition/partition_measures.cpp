@@ -126,18 +126,35 @@ double border_length(const Positions& positions, std::span<const Corners> faces,
   return area > 0 ? border / std::sqrt(area) : 0;
 }
 
+/// Per region the sum of the area vectors of its faces; 0 where it is nothing but rounding, as of a closed region.
+std::vector<Eigen::Vector3d> mean_normals(const Positions& positions, std::span<const Corners> faces,
+                                          const Labels& labels, std::size_t regions) {
+  constexpr double rounding = 1e-12;  // of the area
+  std::vector<Eigen::Vector3d> mean(regions, Eigen::Vector3d::Zero());
+  std::vector<double> area(regions, 0);
+  for (const auto& corners : faces) {
+    const Eigen::Vector3d vector = Face_points(positions, corners).area_vector();
+    for (const auto corner : corners) {
+      mean[labels[corner]] += vector;
+      area[labels[corner]] += vector.norm();
+    }
+  }
+  for (std::size_t region = 0; region < regions; ++region)
+    if (mean[region].norm() <= rounding * area[region]) mean[region].setZero();
+  return mean;
+}
+
 /// A face counts with a third of its area for the region of each of its corners.
 double normal_deviation(const Positions& positions, std::span<const Corners> faces, const Labels& labels,
                         std::size_t regions) {
-  std::vector<Eigen::Vector3d> mean(regions, Eigen::Vector3d::Zero());
-  for (const auto& corners : faces)
-    for (const auto corner : corners) mean[labels[corner]] += Face_points(positions, corners).area_vector();
+  constexpr double right_angle = std::numbers::pi / 2;
+  const auto mean = mean_normals(positions, faces, labels, regions);
   double sum = 0, area = 0;
   for (const auto& corners : faces) {
     const Eigen::Vector3d vector = Face_points(positions, corners).area_vector();
     for (const auto corner : corners) {
       const Eigen::Vector3d& normal = mean[labels[corner]];
-      const double angle = std::atan2(vector.cross(normal).norm(), vector.dot(normal));
+      const double angle = normal.isZero(0) ? right_angle : std::atan2(vector.cross(normal).norm(), vector.dot(normal));
       sum += vector.norm() * angle * angle;
       area += vector.norm();
     }

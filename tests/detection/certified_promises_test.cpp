@@ -309,7 +309,7 @@ TEST(Certified, a_broken_bound_is_counted_and_answered_by_an_exact_pass) {
     const Frame& found = certified.detect();
     expect_same_answers(found, exact.detect(), 3);
     EXPECT_EQ(found.pairs.size(), exact.detect().pairs.size());
-    EXPECT_EQ(found.statistics.violations > 0, frame > 0) << frame;  // the first frame builds: nothing relies on bounds
+    EXPECT_GT(found.statistics.violations, 0U) << frame;
   }
   a_points.end = 100;  // the truth
   bend(a_points.points, 0.7, {0, 0, 0});
@@ -324,7 +324,9 @@ TEST(Certified, a_broken_bound_is_an_error_on_request) {
   detector.add(a, point_map(a, a_points), {.name = "a liar"});
   detector.add(std::as_const(c));
   deform(c, [](const Point& p) { return Point(p.x() - 1, p.y(), p.z()); });
+  const double lie = std::exchange(a_points.end, 100);
   detector.detect();
+  a_points.end = lie;
   detector.rebuild(1);
   bend(a_points.points, 0.2, {0, 0, 0});
   const auto message = message_of<Broken_bound>([&] { detector.detect(); });

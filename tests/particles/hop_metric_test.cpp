@@ -79,6 +79,33 @@ TEST(Hop_diameter, is_the_largest_that_a_search_from_every_target_finds) {
   }
 }
 
+/// A grid whose opposite sides are joined.
+std::vector<Corners> torus_faces(std::uint32_t columns, std::uint32_t rows) {
+  std::vector<Corners> faces;
+  const auto at = [=](std::uint32_t x, std::uint32_t y) { return (y % rows) * columns + x % columns; };
+  for (std::uint32_t y = 0; y < rows; ++y)
+    for (std::uint32_t x = 0; x < columns; ++x) {
+      faces.push_back({at(x, y), at(x + 1, y), at(x + 1, y + 1)});
+      faces.push_back({at(x, y), at(x + 1, y + 1), at(x, y + 1)});
+    }
+  return faces;
+}
+
+/// So many pairs are nearly the farthest there that the triangle inequality decides little.
+TEST(Hop_diameter, of_many_targets_on_a_torus_is_that_of_a_search_from_every_one) {
+  const auto graph = vertex_graph(40 * 24, torus_faces(40, 24));
+  for (const std::uint32_t each : {1U, 2U, 7U}) {
+    std::vector<std::uint32_t> targets;
+    for (std::uint32_t vertex = 0; vertex < 40 * 24; vertex += each) targets.push_back(vertex);
+    std::size_t expected = 0;
+    for (const auto target : targets) {
+      const auto hops = breadth_first_hops(graph, target);
+      for (const auto other : targets) expected = std::max<std::size_t>(expected, hops[other]);
+    }
+    EXPECT_EQ(hop_diameter(graph, targets), expected) << each;
+  }
+}
+
 TEST(Hop_diameter, of_a_mesh_is_that_of_its_graph) {
   const auto mesh = grid(6, 5);
   const std::vector<Surface_mesh::Vertex_index> targets{Surface_mesh::Vertex_index(5), Surface_mesh::Vertex_index(24)};

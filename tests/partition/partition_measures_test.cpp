@@ -73,6 +73,16 @@ TEST(Partition_measures, normals_of_a_whole_sphere_deviate_as_they_do_from_any_a
   EXPECT_NEAR(m.ball_volume, 2, 0.1);
 }
 
+/// The area vectors of a closed region cancel out, but for rounding: no direction is nearer than another.
+TEST(Partition_measures, of_a_closed_region_have_a_right_angle_to_every_normal) {
+  for (const double at : {0.0, 0.1, 1e3}) {
+    auto mesh = cube(4);
+    for (const auto v : mesh.vertices()) mesh.point(v) = mesh.point(v) + Kernel::Vector_3(at, 0.3 * at, 0.7 * at);
+    const auto m = measured(mesh, given(std::vector<Region_index>(mesh.number_of_vertices(), 0), 1));
+    EXPECT_DOUBLE_EQ(m.normal_deviation, 90);
+  }
+}
+
 TEST(Partition_measures, the_balance_reflects_a_larger_region_and_islands_are_counted_before_repair) {
   auto labels = halves();
   for (int v = 0; v < 24; ++v) labels[v] = v < 18 ? 0 : 1;

@@ -145,6 +145,31 @@ TEST(First_answer, rounds_in_which_a_contestant_gives_up_do_not_count) {
   EXPECT_EQ(positions_of_second(scene), before);
 }
 
+/// Says that two meshes collide once they have moved.
+class Late_liar : public Session {
+ public:
+  void update() override { collides_ = true; }
+  bool any() override { return collides_; }
+  void all(std::vector<Face_pair>&) override {}
+
+ private:
+  bool collides_ = false;
+};
+
+TEST(First_answer, compares_the_answers_of_later_frames_too) {
+  std::vector<std::string> begun;
+  const Once_contestant liar{
+      .library = "liar", .reports_pairs = false, .begin = [](const Surface_mesh&, const Surface_mesh&, Contact_query) {
+        return std::make_unique<Late_liar>();
+      }};
+  Once_scene far = make_once_scene(once_kinds()[0], once_sizes().front());
+  ASSERT_EQ(once_kinds()[0].name, "far");
+  const std::vector<Once_contestant> both{liar, slow_contestant("honest", {0}, begun)};
+  const auto figures = measure_first_answers(far, both, {false, false}, 1);
+  EXPECT_FALSE(figures[0].right);
+  EXPECT_TRUE(figures[1].right);
+}
+
 TEST(First_answer, measures_every_question_that_a_contestant_answers) {
   const auto all = once_contestants();
   Once_scene scene = make_once_scene(once_kinds()[2], once_sizes().front());

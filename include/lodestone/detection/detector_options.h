@@ -77,8 +77,8 @@ struct Detector_options {
   Partition_options partition = {};            ///< of the division into regions
   /// Mode `particles`: most pairs of particles of two objects that walk towards each other in a frame, nearest first,
   /// past the borders of their regions. What is around the place where they meet is checked, and the next frame begins
-  /// there. Also, regions are opened. 0: the published method, whose particles stay in their regions, and which checks
-  /// whole regions.
+  /// there. Also, regions are opened. 0: as published, particles stay in their regions, and whole regions are checked;
+  /// the published method as a whole also has `least_particles` = 1 and `growth` = 1.
   std::size_t meetings = 4;
   /// With meetings: vertices that openings may read per object pair below the regions in a frame; four pairs of nodes
   /// that are compared count as one. What was begun is finished, so it can be some hundred more; two surfaces that have

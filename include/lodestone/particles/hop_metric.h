@@ -23,8 +23,8 @@ std::vector<std::uint32_t> breadth_first_hops(const Vertex_graph& graph, std::ui
 /// For the particles of an object this is R_max of \cite saenghaengtham2006, the most steps that a particle can need to
 /// reach another. The paper gives it approximately, by the number of vertices along the shortest route between two
 /// particles. Searches breadth-first from one target after the other, until the triangle inequality bounds what is
-/// left. Of one component: O(k (V + E) + k^2 n^2) for k searches, about a dozen on most surfaces and never more than n.
-/// Of several: the sum of that.
+/// left. Of one component: O(k (V + E) + k^2 n^2) for k searches, about a dozen on most surfaces, and never more than
+/// O(n (V + E)), which a torus can take. Of several: the sum of that.
 ///
 /// @param targets  n vertices of the graph
 /// @return hops (dimensionless); 0 for fewer than two vertices; pairs in different components do not count

@@ -16,7 +16,7 @@ struct Partition_measures {
   double parts_per_region = 1;  ///< connected parts before islands were repaired, over the regions left afterwards
   double border_length = 0;     ///< length of all borders over the square root of the surface's area
   double normal_deviation = 0;  ///< angle in degrees between the normal of a face and the mean normal of its region:
-                                ///< root mean square over the surface
+                                ///< root mean square over the surface. 90 where there is no mean, as of closed regions
   double geodesic_radius = 0;   ///< longest of the shortest paths along edges from a particle to a vertex of its
                                 ///< region; mean over the regions, in radii of the object
   double box_volume = 0;   ///< of the boxes around the faces of each region, over that of the box around all; 0 for
