@@ -16,14 +16,14 @@
 namespace lodestone {
 namespace {
 
-const std::vector<Face_pair> truth{{0, 4}, {1, 2}, {7, 3}};
+const std::vector<Face_pair> true_pairs{{0, 4}, {1, 2}, {7, 3}};
 
 TEST(Soak, counts_face_pairs_that_one_side_lacks_or_has_twice) {
-  EXPECT_EQ(count_differences(truth, truth), 0U);
-  EXPECT_EQ(count_differences(truth, {}), 3U);
-  EXPECT_EQ(count_differences({}, truth), 3U);
-  EXPECT_EQ(count_differences(truth, std::vector<Face_pair>{{0, 4}, {1, 2}, {7, 4}}), 2U);
-  EXPECT_EQ(count_differences(truth, std::vector<Face_pair>{{0, 4}, {1, 2}, {1, 2}, {7, 3}}), 1U);
+  EXPECT_EQ(count_differences(true_pairs, true_pairs), 0U);
+  EXPECT_EQ(count_differences(true_pairs, {}), 3U);
+  EXPECT_EQ(count_differences({}, true_pairs), 3U);
+  EXPECT_EQ(count_differences(true_pairs, std::vector<Face_pair>{{0, 4}, {1, 2}, {7, 4}}), 2U);
+  EXPECT_EQ(count_differences(true_pairs, std::vector<Face_pair>{{0, 4}, {1, 2}, {1, 2}, {7, 3}}), 1U);
 }
 
 /// A frame about objects 1 and 2.
@@ -35,7 +35,7 @@ Frame frame_with(Pair_result result, const std::vector<Face_pair>& contacts) {
   return frame;
 }
 
-const Frame true_frame = frame_with({.collides = true}, truth);
+const Frame true_frame = frame_with({.collides = true}, true_pairs);
 
 bool is_right_answer(const Pair_result& result, const std::vector<Face_pair>& contacts,
                      const Detector_options& asked = {.contacts = Contact_query::all}) {
@@ -43,7 +43,7 @@ bool is_right_answer(const Pair_result& result, const std::vector<Face_pair>& co
 }
 
 TEST(Certified_soak, takes_right_answers) {
-  EXPECT_TRUE(is_right_answer({.collides = true}, truth));
+  EXPECT_TRUE(is_right_answer({.collides = true}, true_pairs));
   EXPECT_TRUE(is_right_answer({.collides = true}, {{1, 2}}, {.contacts = Contact_query::first}));
   EXPECT_TRUE(is_right_answer({.collides = true}, {}, {.contacts = Contact_query::yes_no}));
   EXPECT_TRUE(is_right_answer({.collides = true, .capped = true}, {{0, 4}, {7, 3}},
@@ -52,17 +52,17 @@ TEST(Certified_soak, takes_right_answers) {
 }
 
 TEST(Certified_soak, notices_wrong_answers) {
-  EXPECT_FALSE(is_right_answer({.collides = false}, truth));
-  EXPECT_FALSE(is_right_answer({.collides = true, .near = true}, truth));
-  EXPECT_FALSE(is_right_answer({.collides = true, .containment = Containment::a_in_b}, truth));
-  EXPECT_FALSE(is_right_answer({.collides = true, .parting = Parting()}, truth));
+  EXPECT_FALSE(is_right_answer({.collides = false}, true_pairs));
+  EXPECT_FALSE(is_right_answer({.collides = true, .near = true}, true_pairs));
+  EXPECT_FALSE(is_right_answer({.collides = true, .containment = Containment::a_in_b}, true_pairs));
+  EXPECT_FALSE(is_right_answer({.collides = true, .parting = Parting()}, true_pairs));
   EXPECT_FALSE(is_right(Frame(), true_frame, {1, 2}, {})) << "the pair is lost";
 }
 
 TEST(Certified_soak, notices_wrong_contacts) {
   EXPECT_FALSE(is_right_answer({.collides = true}, {{0, 4}, {1, 2}})) << "one is missing";
   EXPECT_FALSE(is_right_answer({.collides = true}, {{0, 4}, {1, 2}, {7, 4}})) << "another face";
-  EXPECT_FALSE(is_right_answer({.collides = true, .capped = true}, truth)) << "none was cut off";
+  EXPECT_FALSE(is_right_answer({.collides = true, .capped = true}, true_pairs)) << "none was cut off";
   EXPECT_FALSE(is_right_answer({.collides = true}, {}, {.contacts = Contact_query::first}));
   EXPECT_FALSE(is_right_answer({.collides = true}, {{1, 3}}, {.contacts = Contact_query::first}));
 }

@@ -108,7 +108,7 @@ TEST_F(Partition_program, divides_a_shape_and_an_object_of_a_scene_in_its_first_
   expect_error(run_program({"partition", both, "--out", mesh.string()}), 2, "never overwritten");
   expect_error(run_program({"partition", moving, "--json", scene.string()}), 2, "never overwritten");
   expect_error(run_program({"partition", moving, "--out", mesh.string()}), 2, "never overwritten");
-  expect_error(run_program({"partition", scene.string() + "#none"}), 2, "name one object of the scene");
+  expect_error(run_program({"partition", scene.string() + "#none"}), 2, "the scene has no object 'none'");
 }
 
 TEST_F(Partition_program, divides_the_first_frame_of_a_gltf_animation) {
