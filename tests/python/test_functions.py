@@ -14,7 +14,7 @@ def test_a_mesh_is_an_object_with_vertices_and_faces_or_a_tuple():
     assert expected.collides and expected.a == 0 and expected.b == 1
     again = lodestone.find_collisions((a.vertices, a.faces), (b.vertices.tolist(), b.faces.tolist()))
     assert np.array_equal(again.faces, expected.faces)
-    with pytest.raises(lodestone.BadArgument, match="a must be vertices and faces"):
+    with pytest.raises(lodestone.BadArgument, match="a must be a tuple of vertices and faces"):
         lodestone.find_collisions(7, b)
     with pytest.raises(lodestone.BadMesh):
         lodestone.find_collisions((a.vertices[:, :2], a.faces), b)
