@@ -66,11 +66,12 @@ py::list bound_classes(const py::module_& module) {
   return classes;
 }
 
-/// Refuses objects whose `__init__` has not been called, or not yet. pybind11 would lend them memory that holds nothing.
+/// Refuses objects whose `__init__` has not been called, or not yet. pybind11 would give them memory that nothing has
+/// been written to.
 void refuse_uninitialised(const py::module_& module) {
   for (const py::handle type : bound_classes(module))
     py::detail::get_type_info(reinterpret_cast<PyTypeObject*>(type.ptr()))->operator_new = [](std::size_t) -> void* {
-      throw py::type_error("the object has not been initialised: __init__ of its class of lodestone must be called first");
+      throw py::type_error("the object has not been initialised: call __init__ of its class first");
     };
 }
 

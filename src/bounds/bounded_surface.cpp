@@ -23,6 +23,14 @@ bool is_empty(const Aabb& box) {
   return result;
 }
 
+/// Calls `visit(node)` for the whole and, if all is to be compared, for the leaves, until it returns false.
+template <class Visit_node>
+void visit_compared(const Tree_layout& layout, bool all, const Visit_node& visit) {
+  if (!visit(0) || !all) return;
+  for (std::uint32_t leaf = 0; leaf < layout.leaf_count(); ++leaf)
+    if (const std::uint32_t node = layout.leaf_node(leaf); node != 0 && !visit(node)) return;
+}
+
 void check_nodes(const Node_bound& bound, const Tree_layout& layout) {
   if (bound.node_count() < layout.node_count()) throw Bad_argument("a bound was made for a tree of fewer nodes");
 }
@@ -109,10 +117,8 @@ bool Bounded_surface::take_box(std::uint32_t node) {
 /// The box of the whole, and those of all leaves if all is to be compared, where they are not in use yet.
 void Bounded_surface::take_boxes_to_compare() {
   if (bounds_.empty()) return;
-  const auto take = [&](std::uint32_t node) { return boxed_in_[node] == frame_ || take_box(node); };
-  if (!take(0) || !compares_all_) return;
-  for (std::uint32_t leaf = 0; leaf < layout().leaf_count(); ++leaf)
-    if (!take(layout().leaf_node(leaf))) return;
+  visit_compared(layout(), compares_all_,
+                 [&](std::uint32_t node) { return boxed_in_[node] == frame_ || take_box(node); });
 }
 
 /// What all bounds have in common, cut to the box of the node above, if that is in use. So a position that bounds have
@@ -248,11 +254,10 @@ void Bounded_surface::take_refitted() {
 
 void Bounded_surface::compare_refitted() {
   if (bounds_.empty()) return;
-  const auto compare = [&](std::uint32_t node) {
+  visit_compared(layout(), compares_all_, [&](std::uint32_t node) {
     if (!contains(box_from_bounds(node), boxes_[node])) ++violations_;
-  };
-  compare(0);
-  for (std::uint32_t leaf = 0; compares_all_ && leaf < layout().leaf_count(); ++leaf) compare(layout().leaf_node(leaf));
+    return true;
+  });
   violations_settled_ = violations_;  // all boxes are fitted
 }
 

@@ -58,6 +58,7 @@ class Detect_files : public testing::Test {
 TEST_F(Detect_files, two_meshes_are_answered_without_building_anything_unless_options_need_it) {
   const auto a = write("a.off", tetrahedron_off(0)), b = write("b.off", tetrahedron_off(0));
   const auto far = write("far.off", tetrahedron_off(9));
+  const std::string note = "lodestone: only --out and --html tell what was found for --points, --normals\n";
   const auto table_of = [](const Program_result& result) { return result.out.substr(0, result.out.rfind("\n\n")); };
   for (const auto& other : {b, far})
     for (const std::vector<std::string>& options :
@@ -67,7 +68,7 @@ TEST_F(Detect_files, two_meshes_are_answered_without_building_anything_unless_op
       built.insert(built.end(), options.begin(), options.end());
       const auto answer = run_program(quick), expected = run_program(built);
       EXPECT_EQ(answer.exit_code, 0);
-      EXPECT_EQ(answer.err, expected.err);
+      EXPECT_EQ(answer.err, std::ranges::count(options, "--points") == 0 ? "" : note);
       EXPECT_EQ(table_of(answer), table_of(expected));
       EXPECT_EQ(answer.out.find("to build"), std::string::npos) << answer.out;
       EXPECT_NE(expected.out.find("to build 2 objects"), std::string::npos) << expected.out;

@@ -197,7 +197,8 @@ TEST_F(Info, reads_an_object_of_a_scene_and_a_built_in_shape) {
   EXPECT_EQ(ball["frames"], 5);
   EXPECT_EQ(ball["objects"][0]["faces"], 80);
   EXPECT_EQ(info({"shape:teapot"})["objects"][0]["faces"], 5680);
-  expect_error(run_program({"info", scene + "#kettle"}), 2, "the scene has no object 'kettle'; its objects are square, ball");
+  expect_error(run_program({"info", scene + "#kettle"}), 2,
+               "the scene has no object 'kettle'; its objects are square, ball");
   expect_error(run_program({"info", "shape:kettle"}), 3, "teapot");
 }
 

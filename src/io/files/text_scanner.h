@@ -70,7 +70,7 @@ class Text_scanner {
   std::string_view line_;        // the unread rest of the current line
   std::size_t end_ = 0;          // offset of the end of the current line, comment included
   bool continued_ = false;       // the current line goes on in the next one
-  bool comment_is_text_ = false;
+  bool comment_is_text_ = false;  // in this line, and in those in which it goes on
 };
 
 }  // namespace lodestone

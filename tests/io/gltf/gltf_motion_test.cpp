@@ -141,7 +141,7 @@ TEST_F(Gltf, skins_move_vertices_with_their_joints_and_not_with_the_node) {
   expect_near(at_rest(sample), {{0, 0, 0}, {1, 0, 2 * 127 / 255.0}, {1, 1, 2}, {0, 1, 2}});
 }
 
-TEST_F(Gltf, nodes_with_the_same_skin_share_its_joints) {
+TEST_F(Gltf, nodes_with_the_same_skin_move_as_one_alone_does) {
   auto sample = rich_gltf();
   sample.json.erase("animations");
   sample.json["meshes"][0]["weights"] = {0, 0};
