@@ -17,69 +17,80 @@ namespace lodestone::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Lane i of vector v is an x, y or z, by (v * lanes + i) modulo 3: three vectors in turn keep the axes apart.
-class Box_of_positions {
- public:
-  HWY_INLINE Box_of_positions() {
-    const Double_lanes d;
-    for (std::size_t v = 0; v < 3; ++v) {
-      low_[v] = hn::Inf(d);
-      high_[v] = hn::Neg(low_[v]);
-      zero_[v] = hn::Zero(d);
-    }
-  }
-  /// @param coordinates  of as many positions as a vector has lanes
-  HWY_INLINE void add(const double* coordinates) {
-    const Double_lanes d;
-    for (std::size_t v = 0; v < 3; ++v) {
-      const auto x = hn::LoadU(d, coordinates + v * double_lanes);
-      low_[v] = hn::Min(low_[v], x);
-      high_[v] = hn::Max(high_[v], x);
-      zero_[v] = hn::Add(zero_[v], hn::Mul(hn::Zero(d), x));  // stays zero unless a coordinate is not finite
-    }
-  }
-  /// Extends a box by what was added.
-  /// @return 0 unless a coordinate was not finite
-  HWY_INLINE double extend(double* low, double* high) const {
-    const Double_lanes d;
-    alignas(64) double lowest[3 * double_lanes], highest[3 * double_lanes], zeros[3 * double_lanes];
-    for (std::size_t v = 0; v < 3; ++v) {
-      hn::Store(low_[v], d, lowest + v * double_lanes);
-      hn::Store(high_[v], d, highest + v * double_lanes);
-      hn::Store(zero_[v], d, zeros + v * double_lanes);
-    }
-    double zero = 0;
-    HWY_UNROLL(1)  // the first call waits for each cache line of its code
-    for (std::size_t i = 0; i < 3 * double_lanes; i += 3) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], lowest[i + axis]);
-        high[axis] = std::max(high[axis], highest[i + axis]);
-        zero += zeros[i + axis];
-      }
-    }
-    return zero;
-  }
+/// Coordinates of as many positions as a vector has lanes.
+constexpr std::size_t block = 3 * double_lanes;
 
- private:
-  Doubles low_[3], high_[3], zero_[3];
+/// Of three vectors of coordinates in turn: then each lane holds one axis only, x, y or z by its number modulo 3.
+struct Extremes {
+  alignas(64) double low[block], high[block];
+  alignas(64) double zero[block];  ///< 0 unless a coordinate was not finite
 };
 
-bool bound_positions_kernel(const double* coordinates, std::size_t positions, double* low, double* high) {
-  Box_of_positions box;
-  std::size_t position = 0;
-  for (; position + double_lanes <= positions; position += double_lanes) box.add(coordinates + 3 * position);
-  std::fill_n(low, 3, std::numeric_limits<double>::infinity());
-  std::fill_n(high, 3, -std::numeric_limits<double>::infinity());
-  double zero = box.extend(low, high);
-  HWY_UNROLL(1)  // as above
-  for (const double* p = coordinates + 3 * position; p != coordinates + 3 * positions; p += 3) {
+/// How far on a block begins at a multiple of a vector's size: there no vector lies in two cache lines, which would
+/// take twice as long to load.
+/// @return in coordinates, less than a block
+HWY_INLINE std::size_t to_whole_lines(const double* coordinates) {
+  static_assert(8 % double_lanes == 0);
+  const std::size_t lane = reinterpret_cast<std::uintptr_t>(coordinates) / sizeof(double) % double_lanes;
+  return 3 * ((double_lanes - lane) * 3 % double_lanes);  // 3 * 3 is 1 modulo 8
+}
+
+/// @param count  of the coordinates, a multiple of three: at least a block
+HWY_INLINE void find_extremes(const double* coordinates, std::size_t count, Extremes& extremes) {
+  const Double_lanes d;
+  Doubles low0 = hn::Inf(d), low1 = low0, low2 = low0;
+  Doubles high0 = hn::Neg(low0), high1 = high0, high2 = high0;
+  Doubles zero0 = hn::Zero(d), zero1 = zero0, zero2 = zero0;  // stay zero unless a coordinate is not finite
+  const auto add = [&](const double* from, auto& low, auto& high, auto& zero) HWY_ATTR {
+    const auto x = hn::LoadU(d, from);
+    low = hn::Min(low, x);
+    high = hn::Max(high, x);
+    zero = hn::MulAdd(hn::Zero(d), x, zero);
+  };
+  // Blocks may overlap: the second begins at a whole line, the last one ends where the coordinates do.
+  const double* const last = coordinates + count - block;
+  const std::size_t first_step = to_whole_lines(coordinates);
+  for (std::size_t step = first_step == 0 ? block : first_step;; step = block) {
+    add(coordinates, low0, high0, zero0);
+    add(coordinates + double_lanes, low1, high1, zero1);
+    add(coordinates + 2 * double_lanes, low2, high2, zero2);
+    if (coordinates == last) break;
+    coordinates = std::min(coordinates + step, last);
+  }
+  const auto store = [&](const auto& v0, const auto& v1, const auto& v2, double* to) HWY_ATTR {
+    hn::Store(v0, d, to);
+    hn::Store(v1, d, to + double_lanes);
+    hn::Store(v2, d, to + 2 * double_lanes);
+  };
+  store(low0, low1, low2, extremes.low);
+  store(high0, high1, high2, extremes.high);
+  store(zero0, zero1, zero2, extremes.zero);
+}
+
+/// Extends a box by some of the coordinates.
+/// @param count  a multiple of three
+/// @return 0 unless a coordinate is not finite
+HWY_INLINE double extend(double* low, double* high, const double* lowest, const double* highest, const double* zeros,
+                         std::size_t count) {
+  double zero = 0;
+  HWY_UNROLL(1)  // the first call waits for each cache line of its code
+  for (std::size_t i = 0; i < count; i += 3) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p[axis]);
-      high[axis] = std::max(high[axis], p[axis]);
-      zero += 0 * p[axis];
+      low[axis] = std::min(low[axis], lowest[i + axis]);
+      high[axis] = std::max(high[axis], highest[i + axis]);
+      zero += 0 * zeros[i + axis];
     }
   }
-  return zero == 0;
+  return zero;
+}
+
+bool bound_positions_kernel(const double* coordinates, std::size_t positions, double* low, double* high) {
+  std::fill_n(low, 3, std::numeric_limits<double>::infinity());
+  std::fill_n(high, 3, -std::numeric_limits<double>::infinity());
+  if (positions < double_lanes) return extend(low, high, coordinates, coordinates, coordinates, 3 * positions) == 0;
+  Extremes extremes;
+  find_extremes(coordinates, 3 * positions, extremes);
+  return extend(low, high, extremes.low, extremes.high, extremes.zero, block) == 0;
 }
 
 void sides_beyond_kernel(const double* coordinates, std::size_t positions, const double* low, const double* high,

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "support/instruction_sets.h"
 #include "support/test_meshes.h"
@@ -99,6 +103,32 @@ TEST(Box_reader, bounds_all_positions) {
       EXPECT_EQ(reader.box().max(), expected.max());
     });
   }
+}
+
+/// Vectors begin where cache lines do, so that what is read first and last depends on where the coordinates lie.
+TEST(Box_reader, bounds_positions_wherever_in_memory_they_begin) {
+  constexpr std::size_t most = 40, offsets = 8;
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> number(-1, 1);
+  std::vector<double> memory(offsets + 3 * most);
+  std::ranges::generate(memory, [&] { return number(random); });
+  for_instruction_sets([&] {
+    for (std::size_t offset = 0; offset < offsets; ++offset)
+      for (std::size_t count = 1; count <= most; ++count) {
+        const std::span coordinates = std::span(memory).subspan(offset, 3 * count);
+        Box expected, box;
+        for (std::size_t i = 0; i < coordinates.size(); i += 3)
+          expected.extend(Eigen::Vector3d(coordinates[i], coordinates[i + 1], coordinates[i + 2]));
+        ASSERT_TRUE(bound_positions(coordinates, box));
+        ASSERT_EQ(box.min(), expected.min()) << offset << ' ' << count;
+        ASSERT_EQ(box.max(), expected.max()) << offset << ' ' << count;
+        for (double& coordinate : coordinates) {
+          const double before = std::exchange(coordinate, std::numeric_limits<double>::quiet_NaN());
+          ASSERT_FALSE(bound_positions(coordinates, box)) << offset << ' ' << count;
+          coordinate = before;
+        }
+      }
+  });
 }
 
 TEST(Box_reader, refuses_a_coordinate_that_is_not_finite_wherever_it_is) {
