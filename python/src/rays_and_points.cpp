@@ -70,7 +70,14 @@ std::vector<std::optional<Object_hit>> hits_among(Python_detector& self, const O
 py::object first_hit(Python_detector& self, const Objects_on_ray& objects, const py::object& origin,
                      const py::object& direction, double length) {
   const Ray ray = ray_of(origin, direction, length);
-  const auto hit = hits_among(self, objects, {&ray, 1}).front();
+  const auto hit = self.ask([&](auto& detector) -> std::optional<Object_hit> {
+    if (const auto* object = std::get_if<Object_id>(&objects)) {
+      const auto of_object = detector.first_hit(*object, ray);
+      return of_object ? std::optional(Object_hit{*object, *of_object}) : std::nullopt;
+    }
+    const auto& some = std::get<1>(objects);
+    return some ? detector.first_hit(*some, ray) : detector.first_hit(ray);
+  });
   if (!hit) return py::none();
   py::dict fields = hit_of(hit->hit);
   fields["object"] = hit->object;

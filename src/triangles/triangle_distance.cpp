@@ -222,7 +222,9 @@ Nearest_points<Exact_number> exact_nearest_points(const Triangle& a, const Trian
 double rounded(const Exact_number& x) {
   // Without exact() a lazy number converts to the midpoint of its interval, which may be off in the last digits.
   x.exact();
-  return CGAL::to_double(x);
+  const double middle = CGAL::to_double(x);
+  // The sum of its two ends may overflow. The exact number is rounded towards zero, so that a small one would vanish.
+  return std::isfinite(middle) ? middle : CGAL::to_double(CGAL::exact(x));
 }
 
 /// Rounded only after scaling to a largest coordinate of 1, so the direction of even the shortest gap has all digits.

@@ -419,6 +419,16 @@ def test_regions_and_particles():
     assert regions[particles[3]] == 3 and frame.candidates
 
 
+@pytest.mark.parametrize("objects", [0, [0], None])
+def test_rays_are_refused_by_the_name_of_their_function(objects):
+    detector = lodestone.Detector(mode="particles")
+    detector.add(sphere())
+    with pytest.raises(lodestone.BadArgument, match="^first_hit needs the mode exact or certified$"):
+        detector.first_hit(objects, (0, 0, 0), (1, 0, 0))
+    with pytest.raises(lodestone.BadArgument, match="^first_hits needs the mode exact or certified$"):
+        detector.first_hits(objects, [(0, 0, 0)], (1, 0, 0))
+
+
 @pytest.mark.parametrize("mode", ["exact", "certified"])
 def test_particles_are_refused_where_there_are_none(mode):
     detector = lodestone.Detector(mode=mode, particles=12)

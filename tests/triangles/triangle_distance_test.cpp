@@ -150,6 +150,16 @@ TEST(Closest_points, of_the_greatest_coordinates_are_finite) {
   EXPECT_EQ(closest_points(middle, low).distance, most);
 }
 
+TEST(Closest_points, beyond_half_the_greatest_double_are_finite) {
+  const Point q(-1e308, -1, 5e-324);
+  const Triangle wide{Point(1, -1, 0), Point(-1e308, -1e308, 8.988e307), Point(-1e308, 0, -1)}, corner{q, q, q};
+  const auto found = closest_points(wide, corner);
+  EXPECT_DOUBLE_EQ(found.a.x(), -1e308);
+  EXPECT_NEAR(found.a.y(), -1.05, 0.01);
+  EXPECT_NEAR(found.a.z(), -0.056, 0.01);
+  EXPECT_EQ(found.b, q);
+}
+
 TEST(Closest_points, are_at_distance_zero_where_only_an_edge_is_longer_than_the_greatest_double) {
   // Found by fuzzing. No corner of one is so far from one of the other.
   constexpr double far = 0x1p1023;
