@@ -5,6 +5,7 @@
 #include <CGAL/Interval_nt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "triangles/double_double.h"
