@@ -24,6 +24,12 @@ namespace {
 std::atomic<std::size_t> made = 0, failing = never;
 std::atomic<bool> failed = false;
 std::atomic<std::ptrdiff_t> live = 0;
+std::atomic<std::size_t> largest = 0;
+
+void note_size(std::size_t size) {
+  for (std::size_t seen = largest; seen < size && !largest.compare_exchange_weak(seen, size);) {
+  }
+}
 
 /// Whether the allocation that begins now may succeed.
 bool may_succeed() {
@@ -64,11 +70,13 @@ void fail_allocation(std::size_t number) {
   failing = never;
   made = 0;
   failed = false;
+  largest = 0;
   failing = number;
 }
 std::size_t allocations() { return made; }
 bool allocation_failed() { return failed; }
 std::ptrdiff_t live_blocks() { return live; }
+std::size_t largest_block() { return largest; }
 
 }  // namespace lodestone::test
 
@@ -87,7 +95,10 @@ void* __wrap_realloc(void* memory, std::size_t size) {
 void __wrap_free(void* memory) { release(memory); }
 
 // Not inlined: the compiler would see memory from `new` go to `free`.
-[[gnu::noinline]] void* operator new(std::size_t size) { return or_throw(allocate(size)); }
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  note_size(size);
+  return or_throw(allocate(size));
+}
 [[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return allocate(size); }
 [[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
   return or_throw(allocate_aligned(size, alignment));

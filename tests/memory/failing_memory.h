@@ -19,5 +19,7 @@ bool allocation_failed();
 
 /// Blocks that have been allocated and not freed.
 std::ptrdiff_t live_blocks();
+/// Bytes of the largest block that `operator new` has made since the last call of `fail_allocation`.
+std::size_t largest_block();
 
 }  // namespace lodestone::test

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each allocation of each call of a detector fails once.
+// Each allocation of each call of a detector fails once; and calls that are repeated take no more memory.
 #include <gtest/gtest.h>
 
 #include <new>
+#include <numeric>
 #include <thread>
 #include <vector>
 
@@ -224,6 +225,24 @@ TEST(Out_of_memory, in_one_call_leaves_the_next_one_right) {
       EXPECT_EQ(find_collisions(a, b).faces, expected);
     }).join();
   EXPECT_GT(failures, 20U);
+}
+
+/// The program may ask about an object seldom, or only about others.
+TEST(Memory, does_not_grow_with_rebuilds_that_no_query_follows) {
+  const auto mesh = icosphere(8), other = icosphere(2);
+  std::vector<std::uint32_t> all(mesh.number_of_faces());
+  std::iota(all.begin(), all.end(), 0U);
+  Detector<> detector;
+  detector.add(mesh), detector.add(other);
+  const auto found = detector.detect().face_pairs;
+  const auto largest_of = [&](std::size_t rebuilds) {
+    fail_allocation(never);
+    for (std::size_t i = 0; i < rebuilds; ++i) detector.rebuild(0, Changed_faces{all});
+    return largest_block();
+  };
+  const std::size_t of_some = largest_of(5), of_many = largest_of(500);
+  EXPECT_LE(of_many, 2 * of_some);
+  EXPECT_EQ(detector.detect().face_pairs, found);
 }
 
 }  // namespace

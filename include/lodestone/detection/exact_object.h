@@ -196,6 +196,7 @@ class Exact_object {
     return regions_ ? std::span<const Region_index>(regions_->labels) : std::span<const Region_index>();
   }
   void start_anew(std::vector<std::uint32_t> changed, std::size_t former_faces);
+  void drop_repeated(std::vector<std::uint32_t>& changed) const;
 
   Placed_mesh mesh_;
   Known_motion motion_;
@@ -243,7 +244,17 @@ void Exact_object<Volume>::start_anew(std::vector<std::uint32_t> changed, std::s
   former->changed.insert(former->changed.end(), changed.begin(), changed.end());
   for (std::size_t face = former_faces; face < corners().size(); ++face)
     former->changed.push_back(static_cast<std::uint32_t>(face));
+  drop_repeated(former->changed);
   former_ = std::move(former);
+}
+
+/// Drops repeated faces from a list that is longer than all faces together. So its length stays bounded, however often
+/// an object is rebuilt before the next query.
+template <Bounding_volume Volume>
+void Exact_object<Volume>::drop_repeated(std::vector<std::uint32_t>& changed) const {
+  if (changed.size() <= corners().size()) return;
+  std::ranges::sort(changed);
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
 }
 
 template <Bounding_volume Volume>
