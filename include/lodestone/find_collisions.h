@@ -51,9 +51,9 @@ Collisions collisions_of(Frame&& frame);
 /// @param np_a, np_b  `vertex_point_map`: where the vertices are; default: the meshes' own points. With one for
 ///                    either, a and b may be the same mesh
 /// @return contacts as `options.contacts` asks: none, one, or all, up to `most_contacts`
-/// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite, a Surface_mesh with
-///                       removed elements. Where the boxes around two meshes are apart, faces of two edges may go
-///                       unnoticed beside larger ones: see `frame_at_once`
+/// @throws Bad_mesh      no face, a face that is no triangle, a coordinate that is not finite, removed elements. Where
+///                       the boxes around two meshes are apart, faces of two edges may go unnoticed beside larger ones:
+///                       see `frame_at_once`
 /// @throws Bad_argument  an option out of range, one that the mode does not take, or one mesh given twice without such
 ///                       a map
 template <Triangle_mesh Mesh_a, Triangle_mesh Mesh_b, class Parameters_a = CGAL::parameters::Default_named_parameters,

@@ -342,6 +342,20 @@ TEST(Open_mesh_with_removed_elements, is_refused_until_its_garbage_is_collected)
   detector.add(other);
   EXPECT_EQ(detector.detect().face_pairs, find_collisions(mesh, other).faces);
 
+  // Also if the other mesh is far away, and if it was a vertex without faces.
+  Open_mesh far = converted<Open_mesh>(other);
+  far.request_face_status(), far.request_edge_status(), far.request_vertex_status();
+  for (const auto v : far.vertices()) far.point(v)[0] += 9;
+  EXPECT_FALSE(find_collisions(far, other).collides);
+  const auto alone = far.add_vertex({9, 0, 0});
+  EXPECT_FALSE(find_collisions(far, other).collides);
+  far.delete_vertex(alone);
+  EXPECT_THROW(find_collisions(far, other), Bad_mesh);
+  far.garbage_collection();
+  EXPECT_FALSE(find_collisions(far, other).collides);
+  far.delete_face(*far.faces_begin(), true);
+  EXPECT_THROW(find_collisions(far, other), Bad_mesh);
+
   // Also if they are removed between two frames.
   std::size_t removed = 0;
   for (const Mode mode : {Mode::exact, Mode::certified, Mode::particles}) {

@@ -44,7 +44,8 @@ bool holds_removed_faces(const Mesh& mesh) {
 /// Notices that a mesh has changed since it was numbered, by its numbers of vertices and faces. A change that keeps
 /// both, such as a flipped edge, goes unnoticed. Costs what `holds_removed_faces` does.
 /// @param who        names the mesh in the message; called only if there is one
-/// @throws Bad_mesh  the mesh holds removed elements, or has another number of vertices or faces
+/// @throws Bad_mesh  the mesh holds removed faces, a Surface_mesh any removed elements; or it has another number of
+///                   vertices or faces
 template <Triangle_mesh Mesh, class Who>
 void check_connectivity(const Mesh& mesh, const Mesh_numbering<Mesh>& numbering, Who who) {
   if (holds_removed_faces(mesh)) fail_removed_elements(who());

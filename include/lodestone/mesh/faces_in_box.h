@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lodestone/mesh/box.h"
+#include "lodestone/mesh/connectivity.h"
 #include "lodestone/mesh/coordinate_reader.h"
 #include "lodestone/mesh/coordinates.h"
 #include "lodestone/mesh/triangle_corners.h"
@@ -89,19 +90,20 @@ class Box_reader {
 template <Triangle_mesh Mesh, Vertex_point_map<Mesh> Points>
 bool Box_reader<Mesh, Points>::read_positions() {
   constexpr std::size_t limit = std::numeric_limits<std::uint32_t>::max() - 1;
-  if constexpr (requires { mesh_->has_garbage(); })
-    if (mesh_->has_garbage()) return false;
+  if (holds_removed_faces(*mesh_)) return false;
   if (num_faces(*mesh_) == 0 || num_faces(*mesh_) > limit || num_vertices(*mesh_) > limit) return false;
   if constexpr (in_memory) {
     return bound_positions(memory(), box_);
   } else {
     Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+    std::size_t count = 0;
     for (const auto v : vertices(*mesh_)) {
+      ++count;
       const Eigen::Vector3d position = coordinates(get(points_, v));
       box_.extend(position);
       zero += 0 * position;  // stays zero unless a coordinate is not finite
     }
-    return zero.isZero(0);
+    return zero.isZero(0) && count == num_vertices(*mesh_);  // removed vertices may be counted, but are not listed
   }
 }
 
