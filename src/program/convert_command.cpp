@@ -207,6 +207,14 @@ void note_other_files(const Convert_command& command, std::size_t frames) {
                                  : fmt::format("{} other files match; they were there before", others)));
 }
 
+/// The file that was written, or the pattern of several. With a .gltf, the file of its numbers too.
+std::string shown_files(const std::filesystem::path& output, std::size_t frames) {
+  const auto written = files_of(output, frames);
+  if (written.size() == 1) return written.front().string();
+  const bool has_buffer = written.back().extension() == ".bin";
+  return output.string() + (has_buffer ? " and " + written.back().string() : "");
+}
+
 void report(const Convert_command& command, const Animation& original, const Animation& animation, std::size_t frames,
             const Float_rounding& rounding, const Farthest_parted& farthest) {
   const auto name = shown_name(command.input);
@@ -219,9 +227,8 @@ void report(const Convert_command& command, const Animation& original, const Ani
   note_faces_not_kept(command, animation);
   note_rounding(command, rounding);
   note_other_files(command, frames);
-  const auto written = files_of(command.output, frames);
-  const std::string names = written.size() == 1 ? written.front().string() : command.output.string();
-  fmt::print("{}: {} of {} vertices\n", printable(names), counted(frames, "frame"), animation.vertices);
+  fmt::print("{}: {} of {} vertices\n", printable(shown_files(command.output, frames)), counted(frames, "frame"),
+             animation.vertices);
 }
 
 }  // namespace

@@ -205,6 +205,11 @@ TEST_F(Convert, counts_the_files_of_an_earlier_run_that_match_the_pattern) {
   expect_success(run_program({"convert", path("f*.off"), out, "--frames", "0", "--quiet"}));
 }
 
+TEST_F(Convert, names_both_files_of_a_gltf) {
+  const auto result = run_program({"convert", path("f*.off"), path("two.gltf")});
+  EXPECT_EQ(result.out, path("two.gltf") + " and " + path("two.bin") + ": 12 frames of 4 vertices\n");
+}
+
 TEST_F(Convert, colours_regions) {
   convert("f*.off", "a.gltf", {"--regions", "2"});
   const auto json = read_json(path("a.gltf"));

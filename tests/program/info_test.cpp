@@ -156,6 +156,15 @@ TEST_F(Info, lists_the_animations_of_a_gltf_file) {
   unnamed.json["animations"].erase(1);
   unnamed.json["animations"][0].erase("name");
   EXPECT_NE(run_program({"info", write("unnamed.glb", unnamed.glb())}).out.find("| 0 (unnamed) "), std::string::npos);
+  auto foreign = square_with_two_animations();
+  const std::string rig = "CharacterArmature:CharacterArmature:CharacterArmature:";
+  foreign.json["animations"][0]["name"] = "歩く";
+  foreign.json["animations"][1]["name"] = rig + "Walk";
+  const auto names = run_program({"info", write("foreign.glb", foreign.glb())}).out;
+  EXPECT_NE(names.find("| '歩く', '" + rig + "Walk' "), std::string::npos) << names;
+  foreign.json["animations"][0]["name"] = "\x1b[2J" + std::string(300, 'x');
+  const auto hostile = run_program({"info", write("hostile.glb", foreign.glb())}).out;
+  EXPECT_NE(hostile.find("'?[2J" + std::string(196, 'x') + "...'"), std::string::npos) << hostile;
   const auto scene = write("scene.json", R"({"objects": [{"name": "a", "mesh": "walk.glb",
     "motion": {"gltf": {"file": "walk.glb", "animation": "walk"}}}]})");
   EXPECT_EQ(info({scene})["objects"].at(0)["played_animation"], 1);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/files/small_text.h"
+
 namespace lodestone::detail {
 
 std::string as_json(std::string_view text) {
@@ -19,6 +21,13 @@ std::string as_json(std::string_view text) {
 
 std::string valid_utf8(std::string_view text) {
   return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+}
+
+std::string quoted_name(std::string_view name) {
+  constexpr std::size_t longest = 200;
+  // Truncation can split a character: `valid_utf8` substitutes the remainder.
+  const auto shown = valid_utf8(printable(std::string(name.substr(0, longest))));
+  return "'" + shown + (name.size() > longest ? "...'" : "'");
 }
 
 Json_value::Json_value(const Json& value, std::string file, std::string place)

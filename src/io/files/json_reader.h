@@ -33,6 +33,9 @@ std::string as_json(std::string_view text);
 /// `text` with U+FFFD for whatever is no UTF-8, so that it is written to JSON as it is.
 std::string valid_utf8(std::string_view text);
 
+/// A name that a file gives, in quotes, for a one-line message: control characters as `?`, truncated to 200 bytes.
+std::string quoted_name(std::string_view name);
+
 /// A value of a document, with its JSON pointer. The document must outlive it.
 class Json_value {
  public:

@@ -84,15 +84,17 @@ std::string decoded(const std::string& uri) {
 Bytes read_start(const fs::path& file, std::size_t length, const Json_value& uri) {
   std::error_code error;
   const auto status = fs::status(file, error);
-  if (!exists(status)) uri.fail(fmt::format("{}: there is no such file", in_quotes(file.string())));
+  if (!exists(status)) uri.fail(fmt::format("{}: there is no such file", detail::quoted_name(file.string())));
   // A pipe or a device could deliver bytes without end.
-  if (!is_regular_file(status)) uri.fail(fmt::format("{}: this is not a regular file", in_quotes(file.string())));
+  if (!is_regular_file(status))
+    uri.fail(fmt::format("{}: this is not a regular file", detail::quoted_name(file.string())));
   if (fs::file_size(file, error) < length)
-    uri.fail(fmt::format("{}: the file is shorter than the {} bytes of its buffer", in_quotes(file.string()), length));
+    uri.fail(fmt::format("{}: the file is shorter than the {} bytes of its buffer", detail::quoted_name(file.string()),
+                         length));
   Bytes bytes(length);
   std::ifstream in(file, std::ios::binary);
   if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(length)))
-    uri.fail(fmt::format("{}: the file cannot be read", in_quotes(file.string())));
+    uri.fail(fmt::format("{}: the file cannot be read", detail::quoted_name(file.string())));
   return bytes;
 }
 
@@ -122,7 +124,7 @@ Bytes from_uri(const Json_value& uri, std::size_t length, const fs::path& folder
   const bool is_printable = std::ranges::none_of(name, [](unsigned char c) { return c < ' ' || c == 0x7f; });
   // In what is not encoded, a colon ends a scheme, such as `http:`.
   if (!is_printable || text.find(':') != text.npos || !is_inside(folder, name))
-    uri.fail(fmt::format("{} is not a file inside the folder of the glTF file", in_quotes(name)));
+    uri.fail(fmt::format("{} is not a file inside the folder of the glTF file", detail::quoted_name(name)));
   document.files.push_back(folder / name);
   return read_start(folder / name, length, uri);
 }

@@ -6,14 +6,14 @@
 #include <span>
 #include <string>
 
-#include "io/files/file_bytes.h"
+#include "io/files/json_reader.h"
 
 namespace lodestone {
 
 /// The name of an animation in quotes; its number, if it has none, as `0 (unnamed)`.
 inline std::string animation_name(std::span<const std::string> names, std::size_t animation) {
   const auto& name = names[animation];
-  return name.empty() ? std::to_string(animation) + " (unnamed)" : in_quotes(name);
+  return name.empty() ? std::to_string(animation) + " (unnamed)" : detail::quoted_name(name);
 }
 
 /// `'idle', 'walk'`: the names of animations, on one line that is not too long.

@@ -42,7 +42,7 @@ std::size_t number_of(const Gltf_scene& scene, const std::variant<std::size_t, s
   const auto& name = std::get<std::string>(wanted);
   for (std::size_t i = 0; i < count; ++i)
     if (scene.animations[i].name == name) return i;
-  throw Bad_motion(fmt::format("{}: there is no animation {}, the file has {}", scene.name, in_quotes(name),
+  throw Bad_motion(fmt::format("{}: there is no animation {}, the file has {}", scene.name, detail::quoted_name(name),
                                count > 0 ? animation_list(names_in(scene)) : "none"));
 }
 

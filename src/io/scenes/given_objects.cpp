@@ -95,7 +95,7 @@ Scene_object object_of_scene(const std::filesystem::path& file, const std::strin
     if (name.empty())
       throw Bad_argument(
           fmt::format("{0}: name one object of the scene, as {0}#NAME: {1}", file.string(), fmt::join(names, ", ")));
-    throw Bad_argument(fmt::format("{}: the scene has no object {}; its objects are {}", file.string(), in_quotes(name),
+    throw Bad_argument(fmt::format("{}: the scene has no object {}; its objects are {}", file.string(), detail::quoted_name(name),
                                    fmt::join(names, ", ")));
   }
   auto& motion = found->motion;
